@@ -86,7 +86,7 @@ fn of_task(own: &TaskColumn, part: usize, rows: usize) -> Cells {
     }
 }
 
-/// Cells of the column called `name`.
+/// Cells of the column called `name`; `None` for an unknown name.
 fn cells(table: &Table, name: &str) -> Option<Cells> {
     Some(match name {
         "depth_step" => Cells::Counts(table.depth_step().to_vec()),

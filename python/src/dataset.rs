@@ -88,7 +88,7 @@ impl Recording {
         views.map(str::to_owned).collect()
     }
 
-    /// Selected view.
+    /// Selected view; `None` if none was selected.
     fn view(&self) -> Option<String> {
         self.dataset.view()
     }
@@ -101,7 +101,7 @@ impl Recording {
         self.dataset.header().sensor.model.clone()
     }
 
-    /// `recorded`, `simulated` or `synthetic`.
+    /// Source of the samples: `recorded`, `simulated` or `synthetic`.
     fn source(&self) -> String {
         subject_of(&self.dataset).source
     }
@@ -143,7 +143,7 @@ impl Recording {
         crate::columns::stream(py, &self.dataset)
     }
 
-    /// Shape of a frame: `(height, width, samples per pixel)`.
+    /// Shape of a frame: `(height, width, samples per pixel)`; `None` without frames.
     fn frame_shape(&self) -> Option<(u32, u32, usize)> {
         let info = self.dataset.header().frames.as_ref()?.info;
         Some((info.height, info.width, info.format.samples()))

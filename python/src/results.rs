@@ -171,7 +171,7 @@ pub(crate) fn figure_pdf(texts: Vec<String>, name: &str) -> PyResult<Vec<u8>> {
     Ok(figure.pdf())
 }
 
-/// Sentence for every output about samples of these origins, if some were not measured.
+/// Sentence for every output about samples of these origins; `None` if all samples were measured.
 #[pyfunction]
 pub(crate) fn not_measured(sources: Vec<String>) -> Option<String> {
     taceva_results::not_measured(sources.iter().map(String::as_str))

@@ -15,7 +15,7 @@ use taceva_core::{
 pub struct OnBench {
     sensor: Box<dyn Sensor>,
     bench: Arc<dyn SimulatedBench>,
-    /// Times of the last frame, on the sensor's clock and on the clock of the bench.
+    /// Times of the last frame, on the sensor's clock and on the clock of the bench; `None` before the first frame.
     last: Option<[Duration; 2]>,
 }
 

@@ -69,7 +69,7 @@ impl Lab {
         Lab::numbered(form, order, pictures, 0)
     }
 
-    /// A folder with `count` drawn gray pictures, numbered from `first` on, unlike those of `drawn`.
+    /// A folder with `count` drawn gray pictures, numbered from `first` on.
     ///
     /// # Panics
     /// If it cannot be written, which ends the test.

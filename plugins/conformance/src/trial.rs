@@ -205,7 +205,7 @@ impl Alarm {
         Ok(Alarm { rung })
     }
 
-    /// Time of the interrupt; `None` before its end.
+    /// Time of the interrupt; `None` until the interrupt has returned.
     pub(crate) fn rang(&self) -> Option<Instant> {
         self.rung.try_recv().ok()
     }

@@ -39,7 +39,7 @@ impl Grant {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Withheld {
     plugin: String,
-    /// Folder of a plugin that is not installed.
+    /// Folder of a plugin that is not installed; `None` for an installed plugin.
     folder: Option<String>,
     needs: BTreeSet<Need>,
     /// True if the manifest of a confined plugin declares no needs. A permission has then no effect.

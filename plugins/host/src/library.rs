@@ -150,7 +150,7 @@ impl Library {
         })
     }
 
-    /// Entry `key` of any factory.
+    /// Entry `key` of any factory; `None` for an unknown key.
     pub fn any(&self, key: &DriverKey) -> Option<&Entry> {
         self.entries.get(key)
     }

@@ -21,7 +21,7 @@ pub(crate) struct Limited {
 
 #[derive(Default)]
 struct State {
-    /// Time from which the next line does not exceed the rate of one per [`EVERY`].
+    /// Time from which the next line does not exceed the rate of one per [`EVERY`]; `None` before the first line.
     due: Option<Instant>,
     left_out: u64,
 }

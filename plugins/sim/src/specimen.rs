@@ -30,7 +30,7 @@ impl Indenter {
         }
     }
 
-    /// Finds the ball with this radius.
+    /// Finds the ball with this radius; `None` if no ball has it.
     pub fn from_radius(radius: Nanometre) -> Option<Indenter> {
         Indenter::ALL
             .into_iter()

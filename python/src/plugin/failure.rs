@@ -199,7 +199,7 @@ fn place(py: Python<'_>, error: &PyErr) -> Option<String> {
         let line: u32 = trace.getattr("tb_lineno").ok()?.extract().ok()?;
         let code = trace.getattr("tb_frame").ok()?.getattr("f_code").ok()?;
         let file: String = code.getattr("co_filename").ok()?.extract().ok()?;
-        // Functions of this package and of the interpreter itself are no code of the plugin.
+        // Functions of this package and of the interpreter itself are not code of the plugin.
         let is_own =
             file.starts_with("<frozen ") || own.as_deref().is_some_and(|own| file.starts_with(own));
         if innermost.is_none() || !is_own {

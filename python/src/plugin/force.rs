@@ -27,9 +27,9 @@ pub(super) struct PythonForce {
 struct Reading {
     wrench: Wrench,
     stamp: Stamp,
-    /// Sequence number of the device.
+    /// Sequence number of the last reading; `None` before the first, or if the device numbers no readings.
     sequence: Option<u64>,
-    /// Number of lost readings.
+    /// Number of lost readings; `None` if not counted.
     lost: Option<u64>,
 }
 

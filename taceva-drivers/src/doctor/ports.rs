@@ -13,7 +13,7 @@ pub(super) struct PortKind {
     /// Codes of the diagnosis for usable, denied and absent files.
     codes: [&'static str; 3],
     prefixes: &'static [&'static str],
-    /// Source of a device's name: folder of the class, and file in the folder of the device.
+    /// Source of a device's name: folder of the class, and file in the folder of the device. `None` for a class without names.
     name: Option<(&'static str, &'static str)>,
     noun: &'static str,
     if_absent: &'static str,

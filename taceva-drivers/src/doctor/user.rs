@@ -14,7 +14,7 @@ pub(super) struct User {
 }
 
 impl User {
-    /// Parses the user from the Linux files `/proc/self/status`, `/etc/passwd` and `/etc/group`.
+    /// Parses the user from the Linux files `/proc/self/status`, `/etc/passwd` and `/etc/group`; `None` if the first lacks the ids.
     pub(super) fn parse(status: &str, passwords: &str, groups: &str) -> Option<User> {
         let numbers = |label: &str| -> Option<Vec<u32>> {
             let line = status.lines().find_map(|line| line.strip_prefix(label))?;

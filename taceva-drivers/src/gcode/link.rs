@@ -123,7 +123,7 @@ pub(super) struct SerialLink<S> {
     answers: Receiver<Answer>,
     is_over: Arc<AtomicBool>,
     reader: Option<JoinHandle<()>>,
-    /// Warning that another program had the port open when the link was opened.
+    /// Warning that another program had the port open when the link was opened; `None` if none had.
     warning: Option<String>,
 }
 
@@ -175,7 +175,7 @@ impl<S: Clone + Send + 'static> SerialLink<S> {
         })
     }
 
-    /// Warning that another program had the port open when the link was opened.
+    /// Warning that another program had the port open when the link was opened; `None` if none had.
     pub(super) fn warning(&self) -> Option<String> {
         self.warning.clone()
     }

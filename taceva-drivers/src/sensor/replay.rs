@@ -112,7 +112,7 @@ impl Sensor for Replay {
             .map_err(|fault| self.refused(fault.kind(), fault))?;
         Ok(Stamp {
             valid_s: due_s,
-            // The latency of a recording is unknown. In real time it is that of reading the file.
+            // The latency of a recording is unknown. In real time, it is the time to read the file.
             received_s: self
                 .pace
                 .runs_by_itself()

@@ -48,7 +48,7 @@ pub enum Need {
     Libraries,
     /// Python with LeRobot and its torch (8 GB), which nothing here installs; `TACEVA_LEROBOT` names its interpreter.
     Lerobot,
-    /// Permission to create device files, which emulate those of cameras and scales.
+    /// Permission to create device files that emulate cameras and scales.
     DeviceFiles,
     /// `slurmctld`, `slurmd`, `munged` and permission to start them: a cluster of two virtual nodes on loopback.
     Slurm,
@@ -56,7 +56,7 @@ pub enum Need {
     Faketime,
     /// A machine without other load, for limits of milliseconds. No test can detect other load, so `TACEVA_REQUIRE` must name this need.
     QuietMachine,
-    /// An example, which is built with a whole package but not with a single test.
+    /// An example program. Cargo builds it with a whole package, but not with a single test.
     Example,
 }
 

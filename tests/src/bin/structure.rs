@@ -104,7 +104,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// One line each, if all are requested.
+/// Prints one line for each item, if all are requested.
 fn list(
     out: &mut impl std::io::Write,
     shows_all: bool,

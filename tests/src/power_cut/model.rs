@@ -94,7 +94,7 @@ impl Disk {
         self.applied
     }
 
-    /// Object of `name` in `folder`, as programs see it.
+    /// Object of `name` in `folder`, as programs see it; `None` if the name is free.
     pub fn lookup(&self, folder: ObjectId, name: &str) -> Option<ObjectId> {
         match &self.objects[folder] {
             Object::Folder(folder) => folder.live.get(name).copied(),

@@ -28,7 +28,7 @@ impl State<'_> {
         write_tree(self.tree, path)
     }
 
-    /// The bytes of a file.
+    /// The bytes of a file; `None` for a missing file.
     pub fn file(&self, path: &str) -> Option<&[u8]> {
         Some(self.tree.get(path)?.as_ref()?.as_slice())
     }

@@ -41,7 +41,7 @@ impl Lexer {
     }
 }
 
-/// Parses `name(argument, argument) = result …`.
+/// Parses `name(argument, argument) = result …`; `None` for another line.
 fn parse(text: &str, begun: usize) -> Option<Call> {
     let (name, rest) = text.split_once('(')?;
     let (arguments, result) = rest.rsplit_once(" = ")?;

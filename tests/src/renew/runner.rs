@@ -23,7 +23,7 @@ pub struct Runner {
 pub struct Difference {
     /// First differing line of the passage; `None` if it has fewer lines.
     pub stands: Option<String>,
-    /// Same line of the output.
+    /// Line of the output at the same place; `None` if the output has fewer lines.
     pub printed: Option<String>,
 }
 

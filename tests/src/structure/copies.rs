@@ -67,7 +67,7 @@ pub const COPIES: &[Copies] = &[
         most: 2,
     },
     Copies {
-        // Of rows, of one and of several stored states, and of arrays in memory.
+        // Reports from rows, from one or several stored states, and from arrays in memory.
         concept: "report of an evaluation",
         words: &["EvaluationReport::new("],
         most: 4,

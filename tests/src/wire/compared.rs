@@ -25,7 +25,7 @@ pub struct Compared {
     /// Greatest relative difference of the errors `mae` and `smape`.
     pub error_part: f64,
     /// Greatest relative difference of the errors behind `r2` and `skill`, √(1 − score). The unexplained part, 1 − score, is a ratio of squares: its relative
-    /// change is twice that of the error. The value has little meaning for few labels with a small spread.
+    /// change is twice the change of the error. The value has little meaning for few labels with a small spread.
     pub share_part: f64,
 }
 

@@ -235,7 +235,7 @@ impl Played {
             self.halts.add(&said);
             self.look_at_load();
             if !self.broken.is_empty() {
-                // They state whether the kernel, the program or a device was late.
+                // Lines about misses state if the kernel, the program or a device was late.
                 self.broken
                     .extend(LateCounts::lines(&said).map(str::to_owned));
             }

@@ -26,7 +26,7 @@ pub struct HaltTimes {
     pub late: LateCounts,
 }
 
-/// Begins of the lines with the counts of a session, and of a line about one miss.
+/// Starts of three lines: counts of a session, halts of a session, and one miss.
 const COUNTS: &str = "taceva: late in this session: ";
 const HALTS: &str = "taceva: halts in this session: ";
 const ONE: &str = "taceva: late: ";

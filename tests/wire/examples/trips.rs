@@ -66,7 +66,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         let moved = std::thread::scope(|scope| {
             scope.spawn(|| {
                 while !is_over.load(Ordering::Acquire) {
-                    // The axes of the transducer are those of the base frame: a pressing force points down.
+                    // The axes of the transducer equal the axes of the base frame: a pressing force points down.
                     let reading = transducer.read(PATIENCE);
                     if reading.is_ok_and(|(wrench, _)| -wrench.force[2].0 > LIMIT_N) {
                         let _ = handle.halt();

@@ -29,7 +29,7 @@ impl Base {
         std::array::from_fn(|axis| Base::SIGNS[axis] * (base_mm[axis] - Base::ORIGIN_MM[axis]))
     }
 
-    /// Converts a force between the sensor's frame and that of a transducer with the axes of the base frame, in either direction.
+    /// Converts a force between the sensor's frame and the frame of a transducer with the axes of the base frame, in either direction.
     pub fn turn(force_n: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|axis| Base::SIGNS[axis] * force_n[axis])
     }

@@ -48,13 +48,13 @@ pub struct Truth {
     looked: Duration,
     /// Greatest z of the tip since the last reset, mm.
     pub deepest_mm: f64,
-    /// Monitored limit of the normal force, N.
+    /// Monitored limit of the normal force, N; `None` if no limit is monitored.
     pub limit_n: Option<f64>,
-    /// Time at which the force first exceeded the limit, since the start of the bench.
+    /// Time at which the force first exceeded the limit, since the start of the bench; `None` before.
     pub passed: Option<Duration>,
-    /// Depth of the tip at that time, mm.
+    /// Depth of the tip at the time `passed`, mm; `None` before.
     pub passed_mm: Option<f64>,
-    /// First time after that at which the tip stood.
+    /// First time after `passed` at which the tip stood; `None` before.
     pub stopped: Option<Duration>,
 }
 

@@ -46,7 +46,7 @@ enum Request {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 struct Specimen {
-    /// Radius of a ball.
+    /// Radius of a ball, mm; `None` for a board.
     ball_mm: Option<f64>,
     grating: Option<String>,
     spacing_mm: Option<f64>,
@@ -94,7 +94,7 @@ const LINE_MAX: u64 = 4096;
 const USUAL_SECONDS: f64 = 1.0;
 /// Maximum latency, ms.
 const LAG_MAX_MS: f64 = 1e3;
-/// Maximum way of a jog along each axis, mm, and its speed, mm/s.
+/// Maximum travel of a jog along each axis, mm, and its speed, mm/s.
 const JOG_MAX_MM: f64 = 100.0;
 const JOG_MM_S: f64 = 20.0;
 /// Interval between looks at the end of a jog.

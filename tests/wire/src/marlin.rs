@@ -50,13 +50,13 @@ struct Inside {
     is_killed: bool,
     current: Option<Motion>,
     waiting: VecDeque<Motion>,
-    /// Last feed, mm/min, which later motions keep.
+    /// Last feed, mm/min, which later motions keep; `None` before the first.
     feed: Option<f64>,
     /// Number of the last numbered line.
     last_line: i64,
     /// Number of numbered lines that will arrive damaged.
     damaged: u32,
-    /// Line that will be lost.
+    /// Line that will be lost; `None` if no line will be lost.
     lost: Option<String>,
     /// Commands received while another one waits for the motions.
     lines: VecDeque<String>,
@@ -160,7 +160,7 @@ impl Printer {
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Ends a completed motion, begins the next, and executes commands that waited for them.
+    /// Ends a completed motion, begins the next, and executes commands that waited for the motions.
     fn turn(&self) -> String {
         let mut inside = self.inside();
         if inside.is_killed {
@@ -328,7 +328,7 @@ fn numbered(line: &str, last: i64) -> Result<Numbered<'_>, &'static str> {
     })
 }
 
-/// Number that `M110 N5` sets.
+/// Number that `M110 N5` sets; `None` for another command.
 fn set_number(command: &str) -> Option<i64> {
     command.strip_prefix("M110 N")?.trim().parse().ok()
 }

@@ -215,7 +215,7 @@ impl Sender {
             if bench.withholds(Device::Force) {
                 continue;
             }
-            // Integers have no NaN: a faulty gage is an error in the status.
+            // Integers have no NaN: a faulty gauge is an error in the status.
             let mut status = match bench.is_faulty(Device::Force, FaultKind::NotANumber) {
                 true => ERROR,
                 false => self.status.load(Ordering::Acquire),
@@ -235,7 +235,7 @@ impl Sender {
     }
 }
 
-/// Status bits: an error, and a gage at the end of its range.
+/// Status bits: an error, and a gauge at the end of its range.
 const ERROR: u32 = 1 << 31;
 const SATURATED: u32 = 1 << 17;
 /// Increment of the number when numbers are skipped.
@@ -251,7 +251,7 @@ fn record(number: u32, status: u32, wrench: [f64; 6]) -> Vec<u8> {
         reason = "a cast saturates, and forces are some newtons"
     )]
     let counts = wrench.map(|value| (value * COUNTS).round() as i32);
-    // The second number counts measurements, of which every n-th is sent.
+    // The second number counts measurements; the box sends every n-th.
     let measured = number.wrapping_mul(INTERNAL_HZ / RATE_HZ);
     let heads = [number, measured, status]
         .into_iter()

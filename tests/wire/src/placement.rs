@@ -113,7 +113,7 @@ impl Placement {
         }
     }
 
-    /// Way from this place to that of `other`, mm, and the rotation vector from this rotation to the other, rad, for small turns.
+    /// Vector from this place to the place of `other`, mm, then the rotation vector from this rotation to the other, rad. Valid for small turns.
     pub(crate) fn apart(&self, other: &Placement) -> [f64; 6] {
         let back = Placement {
             at_mm: [0.0; 3],

@@ -1,10 +1,10 @@
 //! Emulated controller of Universal Robots: the real-time data exchange (port 30004), script (ports 30002 and 30003) and the dashboard (port 29999).
 //!
-//! Supported: the outputs of a version by name (zeros for what is not simulated), registers and the speed slider as inputs, `movel` to a pose,
-//! `speedl` for a time (without rotation), `stopl` with a register number before it, the script of one public client, safety stops,
-//! questions at the dashboard. Digital and analog outputs are taken and ignored. Not supported: other inputs and script, inputs in use by
-//! another client, the states of port 30003, programs of the dashboard, acceleration. A motion of the joints goes straight, by the kinematics
-//! of a UR5.
+//! Supported outputs and inputs: the outputs of a version by name (zeros for values that are not simulated), registers and the speed slider.
+//! Supported commands: `movel` to a pose, `speedl` for a time (without rotation), `stopl` after a register number, safety stops,
+//! the script of one public client, questions at the dashboard. Digital and analog outputs are accepted and ignored. Not supported: other inputs and
+//! script, inputs in use by another client, the states of port 30003, programs of the dashboard, acceleration. A motion of the joints
+//! goes straight, by the kinematics of a UR5.
 
 mod controller;
 mod dashboard;

@@ -1,10 +1,10 @@
 //! Emulated control box of UFACTORY: commands on port 502, reports on 30001, 30002 and 30003.
 //!
-//! Supported motions: queued straight ones (absolute, relative, in the frame of the tool, with rotation vectors, both layouts), motions of
+//! Supported motions: queued straight motions (absolute, relative, in the tool frame, with rotation vectors, both layouts), motions of
 //! the joints, checks, expiring velocities of the tip. Supported too: versions, enabling, modes, states, poses, errors and their clearing,
 //! messages at the end of a motion. Not supported: servo motions, velocities with rotation, blending, limits of jerk, braking distances.
 //! A motion of the joints goes straight, by the kinematics of an xArm 6. Speeds outside the limits of the rich report are changed without
-//! a word. An unknown register is answered with "result invalid".
+//! an error. An unknown register is answered with "result invalid".
 
 mod answer;
 mod client;

@@ -251,7 +251,7 @@ impl ArrayFile {
     /// Reads rows of the first axis, in the byte order of this machine and in C order. A single number is one row.
     ///
     /// # Errors
-    /// [`ArrayError`] if the array or a row does not exist, if the rows need more than 1 GiB, or if the file is damaged in these rows.
+    /// [`ArrayError`] if the array or a row does not exist, the rows need more than 1 GiB, or the file is damaged there.
     pub fn read(&self, name: &str, rows: Range<u64>) -> Result<ArrayData, ArrayError> {
         self.rows(name, rows)
             .map_err(|problem| self.wrong(name, problem))

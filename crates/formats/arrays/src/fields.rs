@@ -101,7 +101,7 @@ impl Item {
                 });
                 self.bytes = scalar.bytes();
             }
-            // A field with several records: no field of these is one block.
+            // A field with several records is rejected, because the elements of its inner fields are not contiguous.
             Literal::Sequence(_) if !extent.is_empty() => return Err(unknown()),
             Literal::Sequence(fields) => {
                 for field in fields {

@@ -39,7 +39,7 @@ impl ArrayFormat {
         ArrayFormat::Pickle,
     ];
 
-    /// Format indicated by the extension of `path`. Does not open the file.
+    /// Format indicated by the extension of `path`; `None` for an unknown extension. Does not open the file.
     #[must_use]
     pub fn of(path: &Path) -> Option<ArrayFormat> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();

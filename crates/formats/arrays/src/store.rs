@@ -39,7 +39,7 @@ pub(crate) trait Store: std::fmt::Debug + Send + Sync {
         Vec::new()
     }
 
-    /// Attribute `name` of the group or array `owner`, as text.
+    /// Attribute `name` of the group or array `owner`, as text; `None` if missing.
     fn attribute(&self, _owner: &str, _name: &str) -> Option<String> {
         None
     }

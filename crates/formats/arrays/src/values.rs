@@ -18,7 +18,7 @@ mod conversion;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ArrayData {
-    /// Lengths of the axes, of which the first is the number of rows read. Empty for a single number.
+    /// Lengths of the axes. The first is the number of rows read. Empty for a single number.
     pub shape: Vec<u64>,
     /// Elements. Their number is the product of the lengths in `shape`.
     pub values: ArrayValues,

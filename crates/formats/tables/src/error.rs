@@ -129,9 +129,9 @@ impl TableError {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Place {
-    /// Byte offset, from 0.
+    /// Byte offset, from 0; `None` if unknown.
     pub byte: Option<u64>,
-    /// Column, topic or record.
+    /// Column, topic or record; `None` if unknown.
     pub name: Option<String>,
 }
 

@@ -159,7 +159,7 @@ impl LeRobot {
         &self.info.features
     }
 
-    /// Cells of the column `name`, row by row, like those of [`ParquetTable::column`].
+    /// Cells of the column `name`, row by row, converted as by [`ParquetTable::column`].
     ///
     /// # Errors
     /// Errors of [`ParquetTable::column`]; the limit applies to all files together.

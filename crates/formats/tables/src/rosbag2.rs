@@ -61,7 +61,7 @@ impl Rosbag2 {
             database.source().path().to_owned(),
             database.missing_pages(),
         );
-        // If a description is behind the cut, no message can be read.
+        // If a description is after the cut, no message can be read.
         let counts = Rosbag2::of(database).map(|bag| bag.channels.into_values());
         Err(TableError::Cut {
             path,

@@ -202,7 +202,7 @@ impl H264Clip {
 struct Session<'a> {
     clip: &'a H264Clip,
     colours: Colours,
-    /// `None` before the first sample, and after a reset.
+    /// Decoder of the samples; `None` before the first sample and after a reset.
     decoder: Option<Decoder>,
 }
 

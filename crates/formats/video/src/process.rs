@@ -100,7 +100,7 @@ impl Running {
     }
 
     fn kill(&mut self) {
-        // It may have ended already.
+        // The program may have ended already.
         drop(self.child.kill());
         drop(self.child.wait());
     }

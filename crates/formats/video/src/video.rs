@@ -33,9 +33,9 @@ use crate::packets::JpegClip;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Decoders {
-    /// Path of the program ffmpeg, which decodes all other codecs and containers.
+    /// Path of the program ffmpeg, which decodes all other codecs and containers; `None` if not available.
     pub ffmpeg: Option<PathBuf>,
-    /// Program for AV1 and its arguments. It must run `taceva_video::av1::serve` between standard input and output.
+    /// Program for AV1 and its arguments; `None` if not available. It must run `taceva_video::av1::serve` between standard input and output.
     pub av1: Option<Vec<OsString>>,
 }
 
@@ -66,7 +66,7 @@ pub(crate) enum Frames {
     Jpeg(JpegClip),
     H264 {
         clip: Box<H264Clip>,
-        /// Path of ffmpeg, for streams with an unsupported codec feature that is detected only when a frame is decoded.
+        /// Path of ffmpeg, for streams with an unsupported codec feature that is detected only when a frame is decoded; `None` if not available.
         else_by: Option<PathBuf>,
     },
     Av1(Box<Av1Clip>),

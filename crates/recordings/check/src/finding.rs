@@ -53,7 +53,7 @@ pub(crate) struct Found {
     pub(crate) message: String,
     pub(crate) samples: Vec<String>,
     pub(crate) count: usize,
-    /// Remedy in the place of the check's; empty if nothing needs to be fixed.
+    /// Remedy in place of the remedy of the check; empty if nothing needs a fix. `None` keeps the remedy of the check.
     pub(crate) hint: Option<&'static str>,
 }
 
@@ -77,7 +77,7 @@ impl Found {
         self.with_hint("")
     }
 
-    /// The same finding with the remedy `hint` in the place of its check's.
+    /// The same finding with the remedy `hint` in place of the remedy of its check.
     pub(crate) fn with_hint(self, hint: &'static str) -> Found {
         Found {
             hint: Some(hint),

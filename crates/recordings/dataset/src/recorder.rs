@@ -57,7 +57,7 @@ pub struct RecordingSpec {
     pub channels: Channels,
     /// Taxels of the sensor; `None` without taxels. With taxels, every sample must have signals.
     pub signals: Option<SignalsSpec>,
-    /// Original form of frames that were reduced before recording.
+    /// Original form of frames that were reduced before recording; `None` for unreduced frames.
     pub reduced: Option<ReducedFrames>,
 }
 
@@ -120,7 +120,7 @@ pub struct Recorder {
     stream: Option<StreamFacts>,
     predictions: Option<PredictedTable>,
     frame_info: Option<FrameInfo>,
-    /// Original form of frames that were reduced before recording.
+    /// Original form of frames that were reduced before recording; `None` for unreduced frames.
     reduced: Option<ReducedFrames>,
     reference: Option<ReferenceInfo>,
     cut_bytes: u64,
@@ -132,7 +132,7 @@ pub struct Recorder {
     first: Option<(Digest, Frame)>,
     /// Number of recorded frames without contact.
     references: usize,
-    /// Signals file, which is rewritten from the journal when a recording is resumed.
+    /// Signals file, which is rewritten from the journal when a recording is resumed; `None` without taxels.
     signals: Option<SignalsWriter>,
 }
 
@@ -143,7 +143,7 @@ impl Recorder {
     /// [`DatasetError::TargetExists`] if `path` already contains a recording; [`DatasetError::Busy`] if another process writes there; [`DatasetError::Io`].
     pub fn create(path: &Path, spec: &RecordingSpec) -> Result<Recorder, DatasetError> {
         let lock = empty_folder(path)?;
-        // A deleted recording of this name may have left its own.
+        // A deleted recording of this name may have left its later facts.
         LaterFacts::remove(path);
         let frames = path.join(layout::FRAMES);
         fs::create_dir_all(&frames).map_err(DatasetError::io("create", &frames))?;
@@ -275,8 +275,8 @@ impl Recorder {
     /// Records a sample. Returns its number in the journal, from 1, once the sample is durable. Predictions are not recorded.
     ///
     /// # Errors
-    /// [`DatasetError::Sample`] if the name is empty or already used, a number is not finite, there are more values than channels, the signals do not
-    /// match the taxels, or the frame differs in size or format from the first. [`DatasetError::Io`], after which the recording must be resumed.
+    /// [`DatasetError::Sample`] for an empty or used name, a number that is not finite, more values than channels, or signals that do not match the
+    /// taxels. Also if the frame differs in size or format from the first. [`DatasetError::Io`], after which the recording must be resumed.
     pub fn append(&mut self, sample: &Sample) -> Result<u64, DatasetError> {
         self.check(sample)?;
         let entries = self.write_frames(std::slice::from_ref(sample))?;
@@ -298,7 +298,7 @@ impl Recorder {
     /// [`DatasetError::Sample`] if the frame differs in size or format from the other frames; [`DatasetError::Io`].
     pub fn append_reference(&mut self, frame: &Frame) -> Result<u64, DatasetError> {
         self.check_frame("reference", frame)?;
-        // The previous one keeps its file: the journal names it until this one is durable.
+        // The previous frame keeps its file, because the journal names it until the new frame is durable.
         let relative = layout::reference_path_anew(self.references, "png");
         let digest = self.write_image(&relative, frame)?;
         let written = WrittenFrame {

@@ -24,7 +24,7 @@ impl RotationVector {
 
     /// Rotation vector of the unit quaternion x, y, z, w.
     pub fn of_quaternion([x, y, z, w]: [f64; 4]) -> RotationVector {
-        // A quaternion and its negative are the same rotation: the one with the smaller angle is taken.
+        // A quaternion and its negative are the same rotation. The sign with the smaller angle is taken.
         let sign = if w < 0.0 { -1.0 } else { 1.0 };
         let vector = [x, y, z].map(|part| sign * part);
         let length = length(vector);

@@ -8,7 +8,7 @@ use crate::error::DatasetError;
 use crate::header::{Footprint, Known};
 use crate::toml_file::{parse_toml, read_toml_text, toml_error};
 
-/// Content of a sensor file; every key is optional.
+/// Content of a sensor file. Every key is optional; `None` for a missing key.
 ///
 /// ```toml
 /// model = "DIGIT"
@@ -44,7 +44,7 @@ pub struct SensorFile {
     pub reference_scene: Option<String>,
     /// Sensing area of the sensor.
     pub footprint: Option<taceva_core::Footprint>,
-    /// Width and height of its pictures, pixels.
+    /// Width and height of the sensor's pictures, pixels.
     pub frame_size: Option<[u32; 2]>,
 }
 

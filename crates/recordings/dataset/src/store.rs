@@ -34,13 +34,13 @@ pub struct Beside {
     pub left_out: LeftOut,
     /// Warnings of the imports, or of the devices.
     pub warnings: Vec<String>,
-    /// Frame losses of a stream.
+    /// Frame losses of a stream; `None` for other recordings.
     pub stream: Option<StreamFacts>,
-    /// Predictions of a model, whose file is already written.
+    /// Predictions of a model, whose file is already written; `None` without a model.
     pub predictions: Option<LivePredictions>,
-    /// Signals, whose file is already written.
+    /// Signals, whose file is already written; `None` without signals.
     pub signals: Option<SignalsInfo>,
-    /// List of imported source files, which is already written.
+    /// List of imported source files, which is already written; `None` without imports.
     pub sources: Option<SourcesInfo>,
     /// States of the recording before each addition of rows.
     pub extended: Vec<Extension>,

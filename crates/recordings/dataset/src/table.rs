@@ -253,7 +253,7 @@ impl Table {
         &self.attribute_names
     }
 
-    /// Text column called `name`.
+    /// Text column called `name`; `None` for an unknown name.
     pub fn attribute(&self, name: &str) -> Option<&[Option<String>]> {
         let position = self
             .attribute_names
@@ -262,7 +262,7 @@ impl Table {
         Some(&self.attributes[position])
     }
 
-    /// Column called `name` as text, for any type: id, attribute, count, phase or number.
+    /// Column called `name` as text, for any type: id, attribute, count, phase or number. `None` for an unknown name.
     pub fn as_text(&self, name: &str) -> Option<Vec<Option<String>>> {
         let named = self
             .columns()

@@ -77,7 +77,7 @@ impl TaskKind {
         matches!(self, TaskKind::Class | TaskKind::Event | TaskKind::Outcome)
     }
 
-    /// Kind called `name`.
+    /// Kind called `name`; `None` for an unknown name.
     pub fn from_name(name: &str) -> Option<TaskKind> {
         TaskKind::ALL.into_iter().find(|kind| kind.name() == name)
     }
@@ -115,13 +115,13 @@ pub struct Task {
     /// True if the times of the samples are meaningful for the task.
     #[serde(rename = "time", default, skip_serializing_if = "std::ops::Not::not")]
     pub is_timed: bool,
-    /// Rule that made the labels, in words.
+    /// Rule that made the labels, in words; `None` if not stated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rule: Option<String>,
     /// Number of frames between the two poses of a pose change; `None` for other tasks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub over: Option<u32>,
-    /// Coordinate frame of the poses, in words.
+    /// Coordinate frame of the poses, in words; `None` if not stated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<String>,
     /// Limits between the classes of a pose change; `None` without such classes.

@@ -71,7 +71,7 @@ pub fn add_press_zero(recording: &Path, zero: &PressZero) -> io::Result<()> {
         file.read_exact(&mut last)?;
     }
     if last != [b'\n'] {
-        // A row that was cut off takes no other row with it.
+        // The new row begins on its own line after a truncated row.
         file.write_all(b"\n")?;
     }
     let mut table = csv::WriterBuilder::new()

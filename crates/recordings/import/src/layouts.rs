@@ -91,7 +91,7 @@ pub(crate) struct Layout {
     reads: String,
     leaves_open: String,
     pub(crate) needs: Vec<Need>,
-    /// Pattern of a file that other folders lack, for a layout whose required files are common.
+    /// Pattern of a file that other folders lack, for a layout whose required files are common. `None` for other layouts.
     mark: Option<String>,
     #[serde(default)]
     pub(crate) instead: Vec<Instead>,
@@ -179,12 +179,12 @@ impl Preset {
         &self.0.leaves_open
     }
 
-    /// Preset called `name`.
+    /// Preset called `name`; `None` for an unknown name.
     pub fn from_name(name: &str) -> Option<Preset> {
         Preset::all().find(|preset| preset.name() == name)
     }
 
-    /// Preset whose layout matches the folder at `source`.
+    /// Preset whose layout matches the folder at `source`; `None` without a match.
     pub(crate) fn recognised(source: &Path) -> Option<Preset> {
         let is_there = |pattern: &str| has_match(source, pattern);
         Preset::all().find(|preset| {
@@ -247,7 +247,7 @@ mod tests {
         assert!(FILES.iter().all(|(_, file)| file.contains(SECTION)));
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/layouts");
         let files = std::fs::read_dir(folder).expect("listed").flatten();
-        // The older columns of Bristol have a map of their own and are no preset.
+        // The older columns of Bristol have their own map and are not a preset.
         assert_eq!(files.count(), FILES.len() + 1);
         for preset in Preset::all() {
             assert_eq!(Preset::from_name(preset.name()), Some(preset));

@@ -168,7 +168,7 @@ impl SourceSums {
         Ok(of_each.min_by_key(Vec::len).unwrap_or_default())
     }
 
-    /// Differences like those of [`differences`](SourceSums::differences), plus every unlisted file below `folder`, except the list itself and datasets in
+    /// Same as [`differences`](SourceSums::differences), plus every unlisted file below `folder`, except the list itself and datasets in
     /// `folder`.
     ///
     /// # Errors

@@ -168,7 +168,7 @@ const QUALIFIERS: [&str; 18] = [
 ];
 
 impl UnitSuffix {
-    /// Finds the unit in `name`. Names with several parts, such as `pose_mm.x` and `/Fz/mN`, are searched from the last part.
+    /// Finds the unit in `name`, or `None`. Names with several parts, such as `pose_mm.x` and `/Fz/mN`, are searched from the last part.
     pub(crate) fn of(name: &str) -> Option<UnitSuffix> {
         if let Some(found) = in_brackets(name) {
             return Some(found);

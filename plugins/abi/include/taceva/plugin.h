@@ -90,7 +90,7 @@ typedef struct taceva_error {
 /* Callback that receives the texts that a function lists or writes. `text` is borrowed for the call. */
 typedef void (*taceva_take_text)(void *context, taceva_text text);
 
-/* ---- arguments, checked by the host against what the manifest declares ---- */
+/* ---- arguments, checked by the host against the manifest ---- */
 
 #define TACEVA_ARG_TEXT 1u
 #define TACEVA_ARG_WHOLE 2u

@@ -68,8 +68,8 @@ pub(super) fn attempt(examination: &Examination<'_>, probe: &Probe, limit: Durat
     let outcome = ended(error);
     // A plugin may report a withheld resource as missing, which would not count as a failure.
     let outcome = match &outcome {
-        // Its arguments name a resource without permission, so host names were not resolved either. This counts as one cause, for any report of the
-        // plugin.
+        // The plugin's arguments name a resource without permission, so host names were not resolved either. This is one cause, for any report of
+        // the plugin.
         Outcome::Failed(why) | Outcome::Skipped(why)
             if lacks_bound && (why.starts_with(NO_DEVICE) || why.contains(NOT_OPENED)) =>
         {

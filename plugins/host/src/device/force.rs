@@ -29,9 +29,9 @@ pub(crate) struct PluginForce {
     torque_unit: f64,
     tare: Option<TareAbility>,
     numbers: Option<Sequence>,
-    /// Sequence number of the last reading.
+    /// Sequence number of the last reading; `None` before the first, or if the device does not number readings.
     sequence: Option<u64>,
-    /// Number of lost readings, as stated after the last reading.
+    /// Number of lost readings, as stated after the last reading; `None` if not counted.
     lost: Option<u64>,
 }
 

@@ -22,7 +22,7 @@ impl Interpreter {
             program: self.program().to_owned(),
             source,
         };
-        // These files are checked first, because the error of a failed start is less specific.
+        // The files are checked before the start, because the error of a failed start is less specific.
         std::fs::metadata(self.program()).map_err(start)?;
         std::fs::metadata(self.child()).map_err(|source| PythonError::File {
             path: self.child(),

@@ -30,7 +30,7 @@ impl Image {
     /// Copies and hashes the library that a manifest in `folder` names.
     ///
     /// # Errors
-    /// [`LoadError`] if it is not a regular file, not a library for this machine, truncated, or does not have the digest of the manifest.
+    /// [`LoadError`] if the library is not a regular file, is not built for this machine, is truncated, or has another digest than the manifest.
     pub fn read(folder: &Path, library: &LibraryFile) -> Result<Image, LoadError> {
         let path = folder.join(&library.path);
         let failed = |problem: LoadProblem| problem.of(&path);

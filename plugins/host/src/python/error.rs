@@ -14,7 +14,7 @@ pub enum PythonError {
     /// No interpreter can run it.
     #[error("it is written in Python, and {}", without_interpreter(rejected))]
     NoInterpreter {
-        /// The named interpreters, each with the reason why it cannot.
+        /// The named interpreters, each with the reason why it cannot run the plugin.
         rejected: Vec<String>,
     },
     /// The interpreter is missing or cannot be started.

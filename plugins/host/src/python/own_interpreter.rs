@@ -28,7 +28,7 @@ pub(crate) fn own() -> Option<&'static (PathBuf, PathBuf)> {
     OWN.get()
 }
 
-/// Interpreter of this program's environment: the interpreter in which it runs, or the interpreter next to its executable in a virtual environment.
+/// Interpreter in which this program runs, or interpreter next to its executable in a virtual environment; `None` if there is neither.
 pub fn beside_this_program() -> Option<PathBuf> {
     if let Some((interpreter, _)) = own() {
         return Some(interpreter.clone());

@@ -17,7 +17,7 @@ use crate::python::other_wire;
 pub struct Rejection {
     /// Path of the manifest, or of the folder if the folder is the cause.
     pub path: PathBuf,
-    /// Place where it was found.
+    /// Search place of the path.
     pub place: Place,
     /// Reason of the rejection.
     pub reason: Reason,
@@ -35,7 +35,7 @@ impl fmt::Display for Rejection {
 pub enum Reason {
     /// The folder path is relative, so it depends on the working directory.
     Relative,
-    /// Every user of the machine may write to it.
+    /// Every user of the machine may write to the path or to a folder above it.
     WorldWritable {
         /// The writable file or folder.
         path: PathBuf,

@@ -205,7 +205,7 @@ unsafe extern "C" fn move_guarded(
     error: *mut Error,
 ) -> Status {
     let work = |opened: &mut Opened| {
-        // SAFETY: the host lends the motion for the call and provides the memory and begins with its size.
+        // SAFETY: the host lends the motion for the call. The memory of the stop belongs to the host and begins with its size.
         let (target, stop) = unsafe {
             (
                 memory::sized("motion", target)?,

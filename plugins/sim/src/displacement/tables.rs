@@ -66,7 +66,7 @@ impl Tables {
         if let Some(tables) = found(&kept()) {
             return tables;
         }
-        // Other cameras do not wait for these tables. Of two that compute the same, the tables of the first are kept.
+        // Other cameras do not wait for these tables. If two cameras compute the same tables, the first tables are kept.
         let tables = Arc::new(Tables::new(thickness_mm, depth_mm));
         let mut kept = kept();
         if let Some(earlier) = found(&kept) {

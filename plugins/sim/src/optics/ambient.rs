@@ -42,7 +42,7 @@ impl AmbientLight {
         }
     }
 
-    /// Finds a scene by its name.
+    /// Finds a scene by its name; `None` for an unknown name.
     pub fn from_name(name: &str) -> Option<AmbientLight> {
         AmbientLight::ALL
             .into_iter()

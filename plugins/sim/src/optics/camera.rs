@@ -106,8 +106,8 @@ impl Camera {
     /// Renders a picture.
     ///
     /// # Errors
-    /// [`OpticsError::Frame`] for a buffer of another frame format, [`OpticsError::Opaque`] for a light scene that an opaque gel blocks, and
-    /// [`OpticsError::Value`] for values out of range. The buffer is then unchanged.
+    /// [`OpticsError::Frame`] for a buffer of another frame format, [`OpticsError::Opaque`] for a light scene that an opaque gel blocks.
+    /// [`OpticsError::Value`] for values out of range. After an error, the buffer is unchanged.
     pub fn render(&mut self, view: &View, mut into: FrameMut<'_>) -> Result<Luma, OpticsError> {
         if into.info() != self.info {
             return Err(OpticsError::Frame {

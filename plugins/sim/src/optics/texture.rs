@@ -108,7 +108,7 @@ impl Places {
     #[inline(always)]
     fn of(x: Lanes, y: Lanes, texels_per_unit: f32) -> Places {
         let [x, y] = [x, y].map(|places| places.times(Lanes::splat(texels_per_unit)));
-        // The nearest integer to place − ½ is the one below the place. A tie makes the fraction 0 or 1, which is the same point.
+        // The integer nearest to place − ½ is the integer below the place. A tie makes the fraction 0 or 1, which is the same point.
         let round = Lanes::splat(ROUND);
         let [column, row] = [x, y].map(|places| places.minus(Lanes::splat(0.5)).plus(round));
         Places {

@@ -3,11 +3,11 @@
 use super::sections::GelWear;
 use super::{Body, ParameterError, Parameters};
 
-/// Section with the rates of a gel that states none.
+/// Section with the default rates, for a gel without rates of its own.
 const USUAL: &str = include_str!("../../parameters/ageing.toml");
 
 impl Parameters {
-    /// The table `text` of a gel that ages. Without a section `ageing`, its rates are those chosen for the simulation.
+    /// The table `text` of a gel that ages. A table without a section `ageing` gets the default rates of the simulation.
     ///
     /// # Errors
     /// As [`Parameters::parse`].
@@ -18,10 +18,10 @@ impl Parameters {
         })
     }
 
-    /// The sensor after presses whose forces add up to `load_kn`. Without a section `ageing` nothing changes.
+    /// The sensor after presses whose forces add up to L = `load_kn`. Without a section `ageing` nothing changes.
     ///
-    /// Stiffness is multiplied by e^(−s L), friction by e^(−p L), and the gloss grows by 1 − e^(−p L), where s and p are the rates and L is the sum of the
-    /// forces. Entries and digest remain those of the new gel, because it is the same gel at another age.
+    /// With the rates s and p, stiffness is multiplied by e^(−s L) and friction by e^(−p L). The gloss grows by 1 − e^(−p L).
+    /// Entries and digest do not change, because it is the same gel at another age.
     ///
     /// ```
     /// use taceva_sim::{Model, Parameters};

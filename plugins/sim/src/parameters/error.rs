@@ -27,7 +27,7 @@ pub enum ParameterErrorKind {
         what: &'static str,
         /// Word in the table.
         key: String,
-        /// Nearest known word.
+        /// Nearest known word; `None` if none is near.
         nearest: Option<String>,
     },
     /// A required section or key is missing.

@@ -126,7 +126,7 @@ impl GelFault {
         }
     }
 
-    /// Finds a fault by its name.
+    /// Finds a fault by its name; `None` for an unknown name.
     pub fn from_name(name: &str) -> Option<GelFault> {
         GelFault::ALL.into_iter().find(|fault| fault.name() == name)
     }

@@ -36,7 +36,7 @@ impl Model {
         }
     }
 
-    /// Finds a model by its key.
+    /// Finds a model by its key; `None` for an unknown key.
     pub fn from_key(key: &str) -> Option<Model> {
         Model::ALL.into_iter().find(|model| model.key() == key)
     }

@@ -34,7 +34,7 @@ impl Origin {
         }
     }
 
-    /// Finds an origin by its name.
+    /// Finds an origin by its name; `None` for an unknown name.
     pub fn from_name(name: &str) -> Option<Origin> {
         Origin::ALL.into_iter().find(|origin| origin.name() == name)
     }

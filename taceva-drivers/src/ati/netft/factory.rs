@@ -24,7 +24,7 @@ submit_builtin!(dyn ForceTransducer, || Ok(Box::new(NetftFactory::new()?)));
 /// - Units with their conversion, frame, low pass, rate, range, bias and serial number are settings that a recording keeps. The delay of a low
 ///   pass is a warning, and so is a page that states no low pass.
 /// - A reading is the newest record received. Datagrams of other senders are ignored. Torn, duplicate and overtaken records are dropped.
-/// - A saturated gage is `OutOfRange`; every other status except a latched threshold is `DeviceFault`, with its bits by name. A latched threshold is
+/// - A saturated gauge is `OutOfRange`; every other status except a latched threshold is `DeviceFault`, with its bits by name. A latched threshold is
 ///   a warning, since readings stay valid.
 /// - Zero is the mean of 0.25 s, subtracted by the driver. The bias of the box stays unchanged.
 ///

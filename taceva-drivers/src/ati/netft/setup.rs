@@ -17,12 +17,12 @@ pub(super) struct Setup {
     tool_units: [String; 2],
     /// Number of the low-pass filter, 0 for no filter; `None` if the page states no number.
     filter: Option<f64>,
-    /// Configured rate of records, Hz; `internal_hz` is the rate of the measurement.
+    /// Configured rate of records, Hz; `None` if the page lacks it. `internal_hz` is the rate of the measurement.
     rate_hz: Option<f64>,
     internal_hz: Option<f64>,
-    /// Measuring ranges of the forces, N.
+    /// Measuring ranges of the forces, N; `None` if unknown.
     ranges_n: Option<[f64; 3]>,
-    /// True if the box subtracts a bias.
+    /// True if the box subtracts a bias; `None` if the page does not state it.
     is_biased: Option<bool>,
     /// Messages about unreadable entries, or about a low-pass filter that the page does not state.
     unread: Vec<String>,
@@ -41,9 +41,9 @@ pub(super) enum Frame {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Expected {
     pub(super) frame: Frame,
-    /// Rate of records, Hz.
+    /// Rate of records, Hz; `None` accepts any rate.
     pub(super) rate_hz: Option<f64>,
-    /// Expected least measuring range, N.
+    /// Expected least measuring range, N; `None` accepts any range.
     pub(super) force_max_n: Option<f64>,
 }
 
@@ -84,12 +84,12 @@ impl Setup {
         })
     }
 
-    /// Smallest measuring range of a force, N.
+    /// Smallest measuring range of a force, N; `None` if unknown.
     fn range_n(&self) -> Option<f64> {
         self.ranges_n.map(least)
     }
 
-    /// Measuring range of each force, N. In a tool frame, all forces have the smallest range.
+    /// Measuring range of each force, N; `None` if unknown. In a tool frame, all forces have the smallest range.
     pub(super) fn ranges_n(&self) -> Option<[f64; 3]> {
         let ranges_n = self.ranges_n?;
         Some(match self.is_turned() {

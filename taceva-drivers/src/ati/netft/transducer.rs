@@ -39,7 +39,7 @@ pub(super) struct Transducer {
     is_running: bool,
     /// True after a reading with a latched threshold.
     is_latched: bool,
-    /// Sequence number of the last reading.
+    /// Sequence number of the last reading; `None` before the first.
     sequence: Option<u64>,
     /// Mailbox number of the record that was returned last.
     last: u64,

@@ -12,7 +12,7 @@ const STEP_S: f64 = 10.0;
 pub(super) struct CameraClock {
     /// Least time from a server's stamp to the arrival, s; `None` before the first picture. Delays only add to it.
     behind_s: Option<f64>,
-    /// Time from the stamp to the arrival of the last picture, s.
+    /// Time from the stamp to the arrival of the last picture, s; `None` before the first.
     newest_s: Option<f64>,
     pictures: u32,
     /// Last returned time, s.

@@ -16,7 +16,7 @@ pub(super) struct Parts {
     searched: usize,
     /// Parts dropped because their length was wrong.
     broken: u64,
-    /// Stamp in the head of the current part, s.
+    /// Stamp in the head of the current part, s; `None` if the head has none.
     stamped_s: Option<f64>,
 }
 
@@ -234,7 +234,7 @@ fn announced(lines: &str) -> Result<Option<usize>, PartError> {
     }
 }
 
-/// Stamp in the head of a part, as `X-Timestamp: 1234.567890`, s.
+/// Stamp in the head of a part, as `X-Timestamp: 1234.567890`, s; `None` if the head has none.
 fn stamped_s(lines: &str) -> Option<f64> {
     let mut fields = lines.lines().filter_map(|line| line.split_once(':'));
     let (_, value) = fields.find(|(name, _)| name.trim().eq_ignore_ascii_case("x-timestamp"))?;

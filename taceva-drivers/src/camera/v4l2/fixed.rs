@@ -110,7 +110,7 @@ impl Fixed {
     /// Fixes the controls and returns the values read back, such as `exposure_ms` = `15.7`.
     ///
     /// # Errors
-    /// `Unsupported` for a missing control or a control that stays automatic, `OutOfRange` for a value outside the range, `DeviceFault` if the camera
+    /// `Unsupported` for a missing control or a control that stays automatic, `OutOfRange` for a value outside the range. `DeviceFault` if the camera
     /// sets another value.
     pub(super) fn apply(
         &self,

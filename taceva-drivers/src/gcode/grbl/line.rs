@@ -47,7 +47,7 @@ pub(super) fn read(line: &str) -> Heard<Status> {
     }
 }
 
-/// Parses a version such as `[VER:1.1h.20190825:the press]`, whose last part is a text that the owner set.
+/// Parses a version such as `[VER:1.1h.20190825:the press]`, whose last part is a text that the owner set. `None` for another line.
 fn facts(line: &str) -> Option<BTreeMap<String, String>> {
     let version = line.strip_prefix("[VER:")?.strip_suffix(']')?;
     let (firmware, machine) = version.split_once(':').unwrap_or((version, ""));
@@ -61,7 +61,7 @@ fn facts(line: &str) -> Option<BTreeMap<String, String>> {
 }
 
 impl Status {
-    /// Parses a status such as `<Idle|MPos:1.000,2.000,-3.000|FS:0,0>`.
+    /// Parses a status such as `<Idle|MPos:1.000,2.000,-3.000|FS:0,0>`; `None` for another line.
     fn read(line: &str) -> Option<Status> {
         let inner = line.strip_prefix('<')?.strip_suffix('>')?;
         let mut fields = inner.split('|');

@@ -49,7 +49,7 @@ impl Machine {
         if let Err(error) = &ended {
             // A second hold is harmless. If it cannot be sent, the link is broken, which is reported elsewhere.
             let _ = self.link.writer().send(HOLD);
-            // A timed-out motion is not a halt, so the next one is accepted. Only the caller of a halt ends it.
+            // A timed-out motion is not a halt, so the next one is accepted. Only the caller of a halt ends that halt.
             let given_up = error.kind() == ErrorKind::Timeout;
             let _ = match given_up && !self.stop.is_halted() {
                 true => self.empty(MOVE),

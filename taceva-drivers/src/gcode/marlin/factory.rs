@@ -16,7 +16,7 @@ submit_builtin!(dyn Robot, || Ok(Box::new(MarlinFactory::new()?)));
 /// Opens printers with Marlin 2 on a serial port: `gcode/marlin:port=/dev/ttyACM0`.
 ///
 /// # The physical contract
-/// - Positions are those of `M114`, in mm, in the frame set by homing: **home the printer first**, which this program never does. The printer has
+/// - Positions come from `M114`, in mm, in the frame set by homing: **home the printer first**, which this program never does. The printer has
 ///   three axes and does not rotate.
 /// - Opening locks the serial port, which resets many boards; nothing moves. Firmware without `EMERGENCY_PARSER` is rejected, since a stop
 ///   would wait for the end of the motion. Firmware without `M118` is rejected too: it sends no echo. The firmware, the type and the UUID

@@ -114,7 +114,7 @@ fn is_key(word: &str) -> bool {
     !word.is_empty() && word.chars().all(is_of_key)
 }
 
-/// Parses a position such as `X:1.00 Y:2.00 Z:-3.00 E:0.00 Count X:80 Y:160 Z:-1200`.
+/// Parses a position such as `X:1.00 Y:2.00 Z:-3.00 E:0.00 Count X:80 Y:160 Z:-1200`; `None` for another line.
 fn place(line: &str) -> Option<Place> {
     let number = |word: Option<&str>, axis: &str| -> Option<f64> {
         word?.strip_prefix(axis)?.strip_prefix(':')?.parse().ok()

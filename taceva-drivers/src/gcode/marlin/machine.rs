@@ -95,8 +95,8 @@ impl Printer {
         Ok(printer)
     }
 
-    /// Lines `before`, and a request for the echo of a new mark, which the printer sends once it has carried these out. Each mark has its own number, so that
-    /// an echo or an `ok` that comes twice ends no later command.
+    /// Lines `before`, then a request to echo a new mark. The printer sends the echo after it carries out the lines. Each mark has its own number,
+    /// so that a repeated echo or `ok` ends no later command.
     pub(super) fn marked(&mut self, before: &str) -> String {
         self.mark = self.mark.wrapping_add(1);
         format!("{before}M118 {MARK}{}", self.mark)
@@ -125,7 +125,7 @@ impl Printer {
                 Some(Answer::Mark(mark)) if mark == self.mark => is_marked = true,
                 Some(Answer::Ok) if is_marked => return Ok(()),
                 Some(Answer::Fault(why)) => return Err(CommandError::Fault(why)),
-                // Firmware without this command.
+                // Firmware without `M118`.
                 Some(Answer::Refused(why)) if why.contains(&unknown) => {
                     let command = "M118".to_owned();
                     return Err(CommandError::Refused { command, why });

@@ -50,7 +50,7 @@ pub(super) struct Transducer {
     /// Facts that the box states about itself.
     facts: BTreeMap<String, String>,
     is_running: bool,
-    /// Sequence number of the last reading.
+    /// Sequence number of the last reading; `None` before the first.
     sequence: Option<u64>,
     /// Mailbox number of the reading that was returned last.
     last: u64,

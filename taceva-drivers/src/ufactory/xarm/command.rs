@@ -159,7 +159,7 @@ impl Reply {
         self.parameters.first().copied()
     }
 
-    /// Number of queued motions.
+    /// Number of queued motions; `None` if the answer is too short.
     pub(super) fn queued(&self) -> Option<u16> {
         self.parameters
             .first_chunk()
@@ -167,12 +167,12 @@ impl Reply {
             .map(u16::from_be_bytes)
     }
 
-    /// Error and warning codes.
+    /// Error and warning codes; `None` if the answer is too short.
     pub(super) fn codes(&self) -> Option<[u8; 2]> {
         self.parameters.first_chunk().copied()
     }
 
-    /// Pose: x, y, z in mm and roll, pitch, yaw in rad.
+    /// Pose: x, y, z in mm and roll, pitch, yaw in rad; `None` if the answer is too short.
     pub(super) fn pose(&self) -> Option<[f32; 6]> {
         floats(&self.parameters)
     }

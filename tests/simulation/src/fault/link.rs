@@ -27,7 +27,7 @@ impl Link {
         }
     }
 
-    /// Counts a call and returns its fault.
+    /// Counts a call and returns its fault; `None` for a call without a fault.
     pub(super) fn next_fault(&mut self) -> Option<FaultKind> {
         let fault = self.plan.at(self.calls);
         self.calls += 1;

@@ -48,7 +48,7 @@ pub(super) struct World {
     pub(super) now_s: f64,
     pub(super) tip: [f64; 3],
     motion: Motion,
-    /// Place of contact while the tip touches the gel. Depth is measured from the surface at this place, because the surface is uneven.
+    /// Place of contact, mm; `None` without contact. Depth is measured from the uneven surface at this place.
     touched: Option<[f64; 2]>,
     pub(super) halted: bool,
     /// True after the emergency stop was pressed, until a person acknowledges it.
@@ -68,7 +68,7 @@ pub(super) struct World {
     last_force: Option<[f64; 3]>,
     /// True while the transducer shows an old force.
     frozen: bool,
-    /// Time since when a reading from a silent transducer is awaited.
+    /// Time since which a reading is awaited, s; `None` while the transducer gives readings.
     listening_s: Option<f64>,
     last_frame_s: f64,
     pub(super) sabotage: Sabotage,
@@ -186,7 +186,7 @@ impl World {
         }
     }
 
-    /// Advances time by one way of a call.
+    /// Advances time by the delay of a request or of an answer.
     pub(super) fn link(&mut self) {
         let slow = self.faults.strike(FaultKind::SlowLink, self.now_s);
         self.pass(if slow { SLOW_LINK_S } else { LINK_S });

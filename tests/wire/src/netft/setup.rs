@@ -26,7 +26,7 @@ const HIDDEN: [&str; 4] = ["cfgtfx", "scfgtdu", "scfgtau", "setuserfilter"];
 
 /// Readings per second.
 pub(super) const RATE_HZ: u32 = 500;
-/// Measurements per second, of which some are sent.
+/// Measurements per second; the box sends only some of them.
 pub(super) const INTERNAL_HZ: u32 = 7_000;
 /// Counts per N, and per N·m.
 pub(super) const COUNTS: f64 = 10_000_000.0;
@@ -66,7 +66,7 @@ impl Setup {
             ("setpke", "0".to_owned()),
             ("setbias", six_zeros.to_owned()),
             ("setmce", "0".to_owned()),
-            // Thresholds of which none is used.
+            // Unused thresholds.
             ("mce", conditions("0")),
             ("mcx", conditions("-1")),
             ("mcc", conditions("1")),

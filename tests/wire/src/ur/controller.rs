@@ -27,7 +27,7 @@ pub(super) struct Controller {
 
 #[derive(Debug)]
 struct Inside {
-    /// Fault that only a person can clear.
+    /// Fault that only a person can clear; `None` without a fault.
     fault: Option<ArmFault>,
     /// Rotation vector of the tool, which the gel ignores.
     turned: [f64; 3],
@@ -99,7 +99,7 @@ impl Controller {
         self.inside().script.is_some() || self.bench.is_moving()
     }
 
-    /// Content of an integer output register, which a script writes: that of a public client, or a numbered stop.
+    /// Content of an integer output register, written by the script of a public client or by a numbered stop.
     pub(super) fn output_register(&self, number: usize) -> i32 {
         let mut inside = self.inside();
         if !self.bench.is_moving() {
@@ -157,7 +157,7 @@ impl Controller {
         }
     }
 
-    /// Ends a protective stop, and no emergency stop.
+    /// Ends a protective stop, but not an emergency stop.
     pub(super) fn unlock(&self) {
         let mut inside = self.inside();
         inside.fault = inside.fault.filter(|fault| *fault != ArmFault::Collision);
@@ -176,7 +176,7 @@ impl Controller {
         self.bench.set_out(Base::pose(place, yaw_rad), speed);
     }
 
-    /// Moves the tip straight to a pose within a time, from which the next target may lead it away.
+    /// Moves the tip straight to a pose within a time. The next target may replace this one earlier.
     fn servo(&self, inside: &mut Inside, pose: [f64; 6], within_s: f64) {
         let at = self.bench.pose().position;
         let here_mm = Base::to_base([at.x.0, at.y.0, at.z.0]);

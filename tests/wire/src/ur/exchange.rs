@@ -109,7 +109,7 @@ impl Wanted {
                 self.names = names.split(',').map(str::to_owned).collect();
                 let types = self.names.iter().map(|name| type_of(name, self.version));
                 let types: Vec<&str> = types.collect();
-                // A recipe with an unknown output is none: its number is 0.
+                // A recipe with an unknown output is rejected with the number 0.
                 let is_known = !types.contains(&NOT_FOUND);
                 if !is_known {
                     self.names.clear();
@@ -121,7 +121,7 @@ impl Wanted {
             }
             (b'I', names) => {
                 let (recipe, types) = Recipe::read(&String::from_utf8_lossy(names));
-                // A recipe with an unknown input is none: its number is 0.
+                // A recipe with an unknown input is rejected with the number 0.
                 let number = match u8::try_from(self.inputs.len() + 1) {
                     Ok(number) if recipe.is_some() => number,
                     _ => 0,
@@ -137,7 +137,7 @@ impl Wanted {
                 self.is_started = false;
                 message(b'P', &[1])
             }
-            // Messages are rejected.
+            // Other messages are rejected.
             (kind, _) => message(kind, &[0]),
         }
     }

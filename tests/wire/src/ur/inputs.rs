@@ -79,7 +79,7 @@ impl Recipe {
         (recipe.map(Recipe), types.join(","))
     }
 
-    /// Writes the values of a message to `inputs`. False without a change if their length is not that of the recipe.
+    /// Writes the values of a message to `inputs`. False, without a change, if their length differs from the length of the recipe.
     pub(super) fn write(&self, values: &[u8], inputs: &mut Inputs) -> bool {
         let length: usize = self.0.iter().map(|input| input.bytes()).sum();
         if values.len() != length {

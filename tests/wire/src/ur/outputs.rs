@@ -1,6 +1,6 @@
 //! Outputs of a controller by name: their types, and the versions that have them.
 
-/// Outputs with their types, and the least minor versions of a CB3 (3.x) and an e-Series controller (5.x); 99 if it never has one.
+/// Outputs with their types, and the least minor version with the output, of a CB3 (3.x) and of an e-Series controller (5.x); 99 for none.
 const OUTPUTS: &[(&str, &str, [u32; 2])] = &[
     ("timestamp", "DOUBLE", [0, 0]),
     ("target_q", "VECTOR6D", [0, 0]),
@@ -63,7 +63,7 @@ const OUTPUTS: &[(&str, &str, [u32; 2])] = &[
     // The recipe of a public client ends with a comma.
     ("", "DOUBLE", [0, 0]),
 ];
-/// Registers by the begin of their name, with their type and the number after the last.
+/// Registers by the start of their name, with their type and the number of registers.
 const REGISTERS: [(&str, &str, u32); 4] = [
     ("output_int_register_", "INT32", 48),
     ("output_double_register_", "DOUBLE", 48),

@@ -76,7 +76,7 @@ impl Program {
     }
 }
 
-/// Number that a program writes to [`REGISTER`].
+/// Number that a program writes to [`REGISTER`]; `None` if it writes none.
 fn number_of(program: &str) -> Option<i32> {
     let call = format!("write_output_integer_register({REGISTER},");
     let (_, number) = program.split_once(&call)?;

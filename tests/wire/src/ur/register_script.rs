@@ -1,8 +1,8 @@
 //! Script of a public client (`RTDEControlInterface` of `ur-rtde`), which takes commands from input registers and answers in output registers.
 //!
 //! A controller runs the script. The emulator recognises it by its first line, and serves its registers without running it. It supports
-//! motions of tip and joints, paths of them, targets that are followed, a velocity without rotation, their stops, and questions about rest
-//! and tool. Any other command ends the script, as an error in it would. Registers are the lower or the upper half, as the script states.
+//! motions of tip and joints, paths of motions, followed targets, a velocity without rotation, stops, and questions about rest
+//! and tool. Any other command ends the script, as an error in the script would. Registers are the lower or the upper half, as the script states.
 
 use super::inputs::Inputs;
 use super::joints;
@@ -46,9 +46,9 @@ pub(super) enum Command {
     Cruise { velocity_m_s: [f64; 3] },
     /// Brakes.
     Stop,
-    /// Question for rest.
+    /// Asks if the arm rests.
     IsSteady,
-    /// Question for the offset of the tool, which is 0.
+    /// Asks for the offset of the tool, which is 0.
     ToolOffset,
     /// Ends the script.
     End,

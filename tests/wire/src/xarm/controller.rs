@@ -42,7 +42,7 @@ struct BoxState {
 #[derive(Debug)]
 struct Order {
     pose: [f32; 6],
-    /// Angles at the end of a motion of the joints.
+    /// Angles at the end of a motion of the joints, rad; `None` for other motions.
     angles: Option<Angles>,
     speed: Speed,
     push: Option<Push>,
@@ -59,9 +59,9 @@ struct Motion {
 /// Reply to a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Taken {
-    /// The arm makes the motion, or stated by an error or a warning why it does not.
+    /// The arm makes the motion, or states by an error or a warning that it cannot.
     Accepted,
-    /// The motion was only checked. The number of the error that would end the motion, or 0.
+    /// The motion was only checked, with the number of the error that would end it; 0 for none.
     Checked(u8),
     /// The arm may not move.
     Refused,
@@ -99,7 +99,7 @@ const BAD_PARAMETER: u8 = 12;
 pub(super) const SPEEDS_MM_S: [f64; 2] = [0.1, 1_000.0];
 /// Least and greatest speed of a joint, rad/s.
 pub(super) const JOINT_SPEEDS_RAD_S: [f64; 2] = [0.001, 3.0];
-/// Least time of a motion of the joints, s, and least speed of the tip in it, mm/s: joints may turn without a way of the tip.
+/// Least time of a motion of the joints, s, and least speed of the tip in it, mm/s. Joints may turn without moving the tip.
 const TURN_MIN_S: f64 = 1e-3;
 const TURN_MIN_MM_S: f64 = 1e-3;
 /// Safety boundary: range of the tip about the centre of the gel, mm.
@@ -191,7 +191,7 @@ impl Controller {
         self.accept(&mut inside, motion, push)
     }
 
-    /// Accepts a motion of the joints. The tip goes straight to where they bring it, in the time that the slowest of them needs.
+    /// Accepts a motion of the joints. The tip goes straight to the pose of the target angles, in the time of the slowest joint.
     pub(super) fn turn_joints(&self, motion: &JointMotion, push: Option<Push>) -> Taken {
         self.snapshot();
         let mut inside = self.inside();

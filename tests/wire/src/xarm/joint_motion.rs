@@ -15,7 +15,7 @@ pub(super) struct JointMotion {
     pub(super) is_only_checked: bool,
 }
 
-/// Length of ten values, of which the first seven are angles, bytes.
+/// Length of ten values, bytes. The first seven values are angles.
 const BYTES: usize = 40;
 
 impl JointMotion {
@@ -25,7 +25,7 @@ impl JointMotion {
         JointMotion::of(values, checked, false)
     }
 
-    /// Parses the difference in the parameters of register 83; `None` if it is one of the tip.
+    /// Parses the difference in the parameters of register 83; `None` for a difference of the tip's pose.
     pub(super) fn relative(parameters: &[u8]) -> Option<JointMotion> {
         let (values, &[1, _, ref checked @ ..]) = parameters.split_at_checked(DIFFERENCE_BYTES)?
         else {

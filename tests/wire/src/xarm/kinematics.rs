@@ -32,7 +32,7 @@ const LINKS: [Link; 6] = [
     link(0.0, 0.0, FRAC_PI_2, 0.0),
     link(0.0, 97.0, -FRAC_PI_2, 76.0),
 ];
-/// Angles near those of a tool that points down above the gel.
+/// Approximate angles, rad, of a tool above the gel that points down.
 pub(super) const ABOVE: Angles = [0.0, -0.46, -0.36, 0.0, 0.82, 0.0];
 
 /// Placement of the flange for these angles.
@@ -105,7 +105,7 @@ fn left(angles: Angles, target: &Placement) -> [f64; 6] {
     [x / 100.0, y / 100.0, z / 100.0, rx, ry, rz]
 }
 
-/// Solution of six equations with a positive definite matrix, whose right sides are their last entries.
+/// Solution of six equations with a positive definite matrix. The last entry of each equation is its right side.
 fn solved(equations: [[f64; 7]; 6]) -> [f64; 6] {
     let solved = (0..6).fold(equations, |rows: [[f64; 7]; 6], at| {
         let pivot = rows[at].map(|entry| entry / rows[at][at]);

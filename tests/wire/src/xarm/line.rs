@@ -94,7 +94,7 @@ impl Line {
         })
     }
 
-    /// Parses the difference in the parameters of register 83; `None` if it is one of joints.
+    /// Parses the difference in the parameters of register 83; `None` for a difference of joints.
     pub(super) fn relative(parameters: &[u8]) -> Option<Line> {
         let (values, &[0, has_rotation_vector, ref checked @ ..]) =
             parameters.split_at_checked(DIFFERENCE_BYTES)?

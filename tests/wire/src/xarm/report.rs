@@ -94,7 +94,7 @@ fn write(port: ReportPort, shown: &Snapshot, [major, minor, revision]: [u32; 3])
         // Type and axes, then the version.
         put(145, &[12, 6]);
         put(151, format!("v{major}.{minor}.{revision}").as_bytes());
-        // Jerk, then accelerations and speeds of the tip, least and greatest, then those of joints.
+        // Jerk, then least and greatest acceleration and speed of the tip, then of the joints.
         let [least, most] = SPEEDS_MM_S.map(single);
         let [slowest, fastest] = JOINT_SPEEDS_RAD_S.map(single);
         let limits = [

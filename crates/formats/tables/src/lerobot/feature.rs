@@ -19,9 +19,9 @@ pub struct WrittenFeature {
     pub column: WrittenColumn,
     /// Shape of the feature in one row. For a picture: height, width and colours.
     pub shape: Vec<u64>,
-    /// Names of the elements, or of the axes of a picture.
+    /// Names of the elements, or of the axes of a picture; `None` without names.
     pub names: Option<Vec<String>>,
-    /// Unit of the numbers, or several units in the order of `names`. LeRobot ignores this key.
+    /// Unit of the numbers, or several units in the order of `names`; `None` without a unit. LeRobot ignores this key.
     pub unit: Option<String>,
 }
 

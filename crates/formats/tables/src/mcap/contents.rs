@@ -207,7 +207,7 @@ fn walk_records(source: &Source, end: u64, is_to_cut: bool) -> Result<(Contents,
     let mut at = MAGIC.len() as u64;
     while at < end {
         let (code, length) = match chunks.head(at) {
-            // No record has the code 0: zeros, as a file system leaves them behind the last bytes that it stored.
+            // No record has the code 0. A file system leaves zeros after the last stored bytes.
             Ok((0, _)) | Err(TableError::Damaged { .. }) if is_to_cut => break,
             head => head?,
         };

@@ -58,7 +58,7 @@ impl Walk {
                     walk.add(source, None, &record)?;
                 }
                 Some(_) => {}
-                // Zeros, as a file system leaves them behind the last bytes that it stored.
+                // Zeros that a file system leaves after the last stored bytes.
                 None => break,
             }
             walk.end = head.end;

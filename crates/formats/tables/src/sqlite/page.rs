@@ -62,7 +62,7 @@ impl<'a> Pages<'a> {
             self.row_bytes = self.row_bytes.saturating_add(bytes);
         }
         let length = self.database.source.length();
-        // A cut may have taken the end of this row, which `uncount` takes back.
+        // The end of this row may be missing in a truncated file; `uncount` then subtracts it.
         let open = match self.database.cut_at() {
             Some(_) => bytes,
             None => 0,

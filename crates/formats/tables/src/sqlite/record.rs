@@ -20,7 +20,7 @@ pub(crate) enum Value {
     Blob(Range<usize>),
 }
 
-/// Row, of which only the bytes of requested values are read.
+/// Row. Only the bytes of requested values are read.
 pub(crate) struct Record<'p, 'd> {
     pages: &'p mut Pages<'d>,
     page: u32,

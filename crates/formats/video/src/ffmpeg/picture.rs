@@ -107,7 +107,7 @@ impl RawFrame {
                 planes(&luma, Some([&blue, &red]), [1, 0])
             }
             Layout::Gray { bits } => planes(&of_8_bits(bytes, bits), None, [0, 0]),
-            // Already colours. The caller handles them.
+            // The picture consists of colours already. The caller handles these layouts.
             Layout::Packed { .. } | Layout::Planes => Ok(Vec::new()),
         }
     }

@@ -8,7 +8,7 @@ use crate::source::Source;
 /// Description of the samples of a track.
 #[derive(Clone, Debug)]
 pub(crate) struct Entry {
-    /// Number of descriptions, of which this is the first.
+    /// Number of descriptions. Only the first is read.
     pub(super) count: u32,
     pub(crate) coding: Coding,
     /// Size in the container, pixels.

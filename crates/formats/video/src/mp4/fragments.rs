@@ -115,7 +115,7 @@ impl Reader<'_> {
             0 => fragment.at,
             _ => fields.u64(source)?,
         };
-        // Otherwise it would follow the frames of another track.
+        // Without a base offset, the samples would follow the frames of another track.
         if flags & 0x2_0001 == 0 && !is_first {
             return Ok(false);
         }

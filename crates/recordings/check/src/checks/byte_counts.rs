@@ -49,7 +49,7 @@ fn of_channel(evidence: &Evidence<'_>, position: usize, channel: &Channel) -> Op
     let points = evidence
         .table
         .labels(Field::Point, 0..evidence.table.rows())?;
-    // The next press begins where it likes.
+    // The next press may begin at any force.
     let is_of_one_press =
         |one: usize, other: usize| points.get(rows[one].0) == points.get(rows[other].0);
     let change = |from: usize, to: usize| (values[to] - values[from]) / count;
@@ -84,7 +84,7 @@ fn of_channel(evidence: &Evidence<'_>, position: usize, channel: &Channel) -> Op
     Some(evidence.found(Severity::Warning, message, &behind))
 }
 
-/// Greatest step of which all differences of `values` are multiples. `None` unless the values span more than [`JUMP`] and at most 255 steps.
+/// Greatest common step of all differences of `values`. `None` unless the values span more than [`JUMP`] and at most 255 steps.
 fn count_of(values: &[f64]) -> Option<f64> {
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);

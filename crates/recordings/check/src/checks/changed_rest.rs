@@ -58,7 +58,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let Some(mean) = Tiles::mean(rest.iter().map(|(_, tiles)| *tiles)) else {
         return Vec::new();
     };
-    // Contact is measured from the untouched pictures of its own time, because a fault is in both.
+    // Contact is measured from untouched pictures of the same time, because both contain the fault.
     let Some(change) = RestChange::of(&reference.tiles, &mean, &pressed) else {
         return Vec::new();
     };

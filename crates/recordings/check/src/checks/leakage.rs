@@ -78,8 +78,8 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// Finding for labelled test samples whose cluster also has labelled samples among the rows `seen`. The default split ignores clusters, so clusters
-/// that it shares are no defect of the recording.
+/// Finding for labelled test samples whose cluster also has labelled samples among the rows `seen`. The default split ignores clusters, so
+/// its shared clusters are no defect of the recording.
 fn shared_clusters(
     evidence: &Evidence<'_>,
     seen: &[usize],

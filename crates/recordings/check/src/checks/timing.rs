@@ -46,7 +46,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let mut pairs = by_clock(table, timed.iter().copied());
     let is_of_one_clock = !pairs.is_empty();
     if !is_of_one_clock {
-        // Files of which each is a row have no order but that of their times, and each may begin its own clock.
+        // Files with one row each have only the order of their times, and each may have its own clock.
         pairs = by_time(table, &timed);
     }
     if starts_anew(table, &pairs) {

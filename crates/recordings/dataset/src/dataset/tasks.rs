@@ -128,8 +128,8 @@ impl Dataset {
     /// The same dataset with the additional task `task`. `labels` contains the class or the pose of each row, or `None` for no label.
     ///
     /// # Errors
-    /// [`DatasetError::Request`] for joined recordings, for a duplicate task name, if the number of labels is not the number of rows, for a label of another
-    /// kind than the task, or if a class is unknown.
+    /// [`DatasetError::Request`] for joined recordings, a duplicate task name, a wrong number of labels, a label of another kind than the task, or
+    /// an unknown class.
     pub fn with_task(
         &self,
         task: Task,

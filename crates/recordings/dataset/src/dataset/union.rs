@@ -79,8 +79,8 @@ impl Dataset {
     /// number, camera settings, attributes, pictures without contact and clocks may differ between recordings.
     ///
     /// # Errors
-    /// [`DatasetError::Unlike`] for two recordings that share samples, or differ in source, sensor model, opacity, footprint, channels, units, the kind and
-    /// size of frames or signals, or the definition of a task; [`DatasetError::Request`] if `recordings` is empty.
+    /// [`DatasetError::Unlike`] for recordings that share samples. Also for different sources, sensor models, opacity, footprints, channels, units,
+    /// kinds and sizes of frames or signals, or definitions of a task. [`DatasetError::Request`] if `recordings` is empty.
     pub fn joined(recordings: Vec<Dataset>) -> Result<Dataset, DatasetError> {
         let mut recordings = recordings;
         if recordings.len() < 2 {

@@ -110,7 +110,7 @@ impl Dataset {
                 ));
             }
         }
-        // The name of such a task is the name of the file with its maps, here and in an export.
+        // The name of a task of depth maps is also the name of its file, here and in an export.
         let mut tasks = self.header.tasks.iter();
         let is_path = |task: &&Task| task.kind == TaskKind::Depth && !is_attribute_name(&task.name);
         if let Some(task) = tasks.find(is_path) {

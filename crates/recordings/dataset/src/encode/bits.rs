@@ -27,7 +27,7 @@ impl BitWriter {
     /// Writer that appends at most `more` bytes to `bytes`.
     pub(super) fn behind(mut bytes: Vec<u8>, more: usize) -> BitWriter {
         let length = bytes.len();
-        // Eight bytes are stored at once, of which the later ones do not count yet.
+        // Each store writes eight bytes. Bytes after the current end do not count yet.
         bytes.resize(length + more + size_of::<u64>(), 0);
         BitWriter {
             bytes,

@@ -87,7 +87,7 @@ fn plan_block(block: &[u8], bits: usize) -> (Option<Coding>, usize) {
 
 /// Frequency of each byte in `block`, and 1 for the end of the block.
 fn counts(block: &[u8]) -> [u32; SYMBOLS] {
-    // Equal neighbours are counted apart, as each count waits for the one before it.
+    // Four tables, so that a count need not wait for the count of an equal neighbour.
     let mut apart = [[0_u32; 256]; 4];
     let (fours, rest) = block.as_chunks::<4>();
     for four in fours {
@@ -174,7 +174,7 @@ fn lengths_header(lengths: &[u8; SYMBOLS]) -> Vec<Bits> {
     const ORDER: [usize; 19] = [
         16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15,
     ];
-    // One distance, which no block uses, stands behind the lengths.
+    // The lengths end with one distance, which no block uses.
     let mut sizes = lengths.to_vec();
     sizes.push(0);
     let runs = runs(&sizes);
@@ -213,7 +213,7 @@ fn runs(sizes: &[u8]) -> Vec<(u8, Bits)> {
         let once = (size, Bits::default());
         let mut most = 138;
         if size != 0 {
-            // What is repeated is the size before.
+            // A repetition repeats the previous size.
             runs.push(once);
             left -= 1;
             most = 6;
@@ -345,7 +345,7 @@ mod tests {
 
     #[test]
     fn words_that_would_be_longer_than_the_format_allows_equal_too() {
-        // Counts that grow as Fibonacci's numbers make the deepest tree. The first of them is the end of the block.
+        // Counts that grow like Fibonacci numbers give the deepest tree. The first count is the end of the block.
         let mut deep = Vec::new();
         let (mut one, mut next) = (1, 2);
         for byte in 0..20 {
@@ -359,13 +359,13 @@ mod tests {
 
     #[test]
     fn lengths_whose_words_would_be_longer_than_the_format_allows_equal_too() {
-        // Numbers of bytes that occur once, twice, four times and so on. The lengths of their words would have words of 8 bits, and 7 are allowed.
+        // Numbers of bytes that occur once, twice, four times and so on. The code of their lengths would have words of 8 bits; the format allows 7.
         let numbers = [5, 1, 0, 111, 10, 27, 2, 0, 16, 4];
         let powers: Vec<usize> = (0..10)
             .zip(numbers)
             .flat_map(|(power, number)| std::iter::repeat_n(1_usize << power, number))
             .collect();
-        // Equal lengths stand apart, as a run of them has a symbol of its own.
+        // Equal lengths are apart, because a run of them has its own symbol.
         let apart: Vec<u8> = (0..176_u8)
             .flat_map(|byte| std::iter::repeat_n(byte, powers[usize::from(byte) * 43 % 176]))
             .collect();

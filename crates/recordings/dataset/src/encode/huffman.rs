@@ -31,7 +31,7 @@ pub(super) fn words<const SYMBOLS: usize>(lengths: &[u8; SYMBOLS]) -> [Bits; SYM
             .zip(lengths)
             .filter(|(_, own)| **own == length)
         {
-            // The first bit of a word goes first, and the lowest bit of a number does.
+            // A stream stores the lowest bit of a number first, but the first bit of a code word is its highest.
             let reversed = next.reverse_bits() >> (16 - length);
             *word = Bits::new(reversed, length);
             next = next.wrapping_add(1);
@@ -46,7 +46,7 @@ fn words_by_length(counts: &[u32], longest: usize) -> Vec<usize> {
     for depth in leaf_depths(counts) {
         words[depth.min(longest)] += 1;
     }
-    // Words that were cut to the limit leave no room for others: one of them takes a place beside a shorter word, which grows by a bit.
+    // Words cut to the limit overfill the code. Each step moves one of them beside a shorter word, which grows by a bit.
     let taken: usize = (1..=longest)
         .map(|length| words[length] << (longest - length))
         .sum();

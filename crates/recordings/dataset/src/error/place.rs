@@ -24,11 +24,11 @@ use crate::text::{shown, shown_path};
 pub struct Place {
     /// Path of the file.
     pub path: PathBuf,
-    /// Line, from 1.
+    /// Line, from 1; `None` if the fault has no line.
     pub line: Option<u64>,
-    /// Row, from 0, for files without lines.
+    /// Row, from 0, for files without lines; `None` if the fault has no row.
     pub row: Option<u64>,
-    /// Column, by name.
+    /// Column, by name; `None` if the fault has no column.
     pub column: Option<String>,
 }
 

@@ -31,16 +31,16 @@ pub struct MappedColumn {
     /// Factors of the columns after subtraction of the offsets. The products are summed. Empty for none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub factors: Vec<f64>,
-    /// Number that means "not measured". A row is left out if every column with a placeholder contains its placeholder.
+    /// Number that means "not measured", or `None`. A row is left out if every column with a placeholder contains its placeholder.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub placeholder: Option<f64>,
     /// Order of taxels: `place-first` or `channel-first`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub order: Option<String>,
-    /// Description of the mean that is subtracted as the zero.
+    /// Description of the mean that is subtracted as the zero; `None` if no mean is subtracted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub zero: Option<String>,
-    /// Description of the weight that is subtracted.
+    /// Description of the weight that is subtracted; `None` if no weight is subtracted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gravity: Option<String>,
 }

@@ -104,7 +104,7 @@ impl Footprint {
         .map_err(|error| error.to_string())
     }
 
-    /// Error message if a length is missing, unexpected or not positive.
+    /// Error message if a length is missing, unexpected or not positive; `None` if all lengths are valid.
     pub fn problem(&self) -> Option<String> {
         let is_disc = self.shape == Shape::Disc;
         let sides = [

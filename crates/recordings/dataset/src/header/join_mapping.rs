@@ -17,7 +17,7 @@ use super::map_conflict::{Fact, number, or_none, quoted};
 pub struct MappedJoin {
     /// Prefix of the column names.
     pub name: String,
-    /// `columns`, `row`, `all`, `time` or `until`.
+    /// Kind of the join: `columns`, `row`, `all`, `time` or `until`.
     pub by: String,
     /// Pairs for a join by columns: `column of the main table = column of this table`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -25,16 +25,16 @@ pub struct MappedJoin {
     /// Time column; for `until`, the column with the main row number before which a row of this table applies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub column: Option<String>,
-    /// Unit of the time column.
+    /// Unit of the time column; `None` for other joins.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
-    /// `nearest`, `before` or `linear`.
+    /// Rule that picks a row by time: `nearest`, `before` or `linear`; `None` for other joins.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pick: Option<String>,
-    /// Maximum time difference, ms.
+    /// Maximum time difference, ms; `None` for other joins.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance_ms: Option<f64>,
-    /// Offset of the clock of this table from the clock of the main table, ms; positive if the clock of this table is ahead.
+    /// Lead of this table's clock over the clock of the main table, ms. `None` if it differs by row, or for other joins.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lag_ms: Option<f64>,
     /// Source of an offset that differs by row: the column that contains the offset, or `file = ms` for each file.

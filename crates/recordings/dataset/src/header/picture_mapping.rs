@@ -26,10 +26,10 @@ pub struct MappedPictures {
     /// Axes of an array: `nhwc`, `nhw` or `nchw`, if the map states them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub layout: Option<String>,
-    /// Values that become black and full scale, in this order.
+    /// Values that become black and full scale, in this order; `None` if values are not converted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub range: Option<[f64; 2]>,
-    /// Bits per pixel after values in `range` are converted to pixels.
+    /// Bits per pixel after values in `range` are converted to pixels; `None` if values are not converted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bits: Option<u8>,
     /// Name of the view, if samples have several pictures.

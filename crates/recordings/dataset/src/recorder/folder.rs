@@ -51,7 +51,7 @@ pub(super) fn unclosed_folder(path: &Path) -> Result<File, DatasetError> {
     let header = path.join(layout::HEADER);
     if header.exists() {
         if path.join(layout::JOURNAL).exists() {
-            // Closed, but interrupted before the last step. A link to another header does not mean that.
+            // A header beside the journal means a close that was interrupted before its last step. A link in place of the header does not.
             refuse_link(&header)?;
             remove_journal(path)?;
         }

@@ -23,7 +23,7 @@ use crate::journal::RecordKind;
 pub struct Streamed {
     /// Sample with its frame.
     pub sample: Sample,
-    /// PNG, JPEG or TIFF file of the frame, stored unchanged.
+    /// PNG, JPEG or TIFF file of the frame, stored unchanged; `None` if the camera sends no files.
     pub sent: Option<Vec<u8>>,
 }
 

@@ -64,7 +64,7 @@ impl FrameEntry {
     }
 }
 
-/// Picture of one row in one view.
+/// Picture of one row in one view; missing values are `None`.
 ///
 /// ```
 /// use taceva_dataset::{Digest, FrameEntry, RowFrame};

@@ -11,9 +11,9 @@ use crate::digest::{Digest, PartsDigest};
 pub struct RowNames {
     /// Name of the sample.
     pub sample: String,
-    /// Contact point.
+    /// Contact point; `None` if the row has none.
     pub point_id: Option<String>,
-    /// Location of the frame.
+    /// Location of the frame; `None` if the row has none.
     pub frame: Option<FrameEntry>,
 }
 

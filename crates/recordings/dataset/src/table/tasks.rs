@@ -191,7 +191,7 @@ impl Table {
         &self.tasks
     }
 
-    /// Labels of the task called `name`.
+    /// Labels of the task called `name`; `None` for an unknown name.
     pub fn task(&self, name: &str) -> Option<&TaskColumn> {
         self.tasks.iter().find(|own| own.task.name == name)
     }
@@ -261,7 +261,7 @@ impl Table {
         for own in &self.tasks {
             digest.part(own.task.definition().as_bytes());
             for column in own.named_columns() {
-                // The digest of a map beside it says more than its place.
+                // The place of a map is left out, because the digest beside it identifies the map.
                 if matches!(column.cells, Cells::MapPlace(_)) {
                     continue;
                 }

@@ -115,7 +115,7 @@ impl Table {
         &self.views
     }
 
-    /// View called `name`.
+    /// View called `name`; `None` for an unknown name.
     pub fn view(&self, name: &str) -> Option<&ViewFrames> {
         self.views.iter().find(|view| view.name == name)
     }

@@ -49,7 +49,7 @@ impl CsvTable {
         self.some(column, rows, Invalid::Refuse)
     }
 
-    /// Numbers like those of [`numbers_in`](CsvTable::numbers_in), with NaN for each cell that is neither empty nor a finite number.
+    /// Same as [`numbers_in`](CsvTable::numbers_in), but with NaN for each cell that is neither empty nor a finite number.
     ///
     /// # Errors
     /// No error occurs. The return type equals that of [`numbers_in`](CsvTable::numbers_in), so that a caller can choose between the two methods.

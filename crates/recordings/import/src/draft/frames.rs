@@ -325,7 +325,7 @@ pub(super) fn counted_through(tables: &FileGroup) -> String {
 struct Beside {
     /// File name as a map writes it for each table.
     file: String,
-    /// Comment above the line.
+    /// Comment above the line; `None` without a comment.
     comment: Option<String>,
     /// Line that names the picture index of a row, if the index differs from the row number.
     index: Option<String>,

@@ -26,7 +26,7 @@ pub(super) enum Role {
     Time {
         unit: &'static str,
         is_unix: bool,
-        /// Reason why the unit may be different.
+        /// Reason why the unit may be different; `None` for a certain unit.
         guess: Option<&'static str>,
     },
     /// Text with few values, such as an object or a session.

@@ -232,7 +232,7 @@ impl ColumnTable {
         if names.is_empty() {
             return Ok(());
         }
-        // A cell takes at least its `String`, which is known before anything is unpacked.
+        // A cell takes at least the size of its `String`, which is known before unpacking.
         let least = size_of::<String>().saturating_mul(self.rows());
         let least = least.saturating_mul(names.len()).saturating_add(read.bytes);
         let columns = match names.as_slice() {

@@ -44,7 +44,7 @@ impl JsonRows {
         let ways = ways(pointer);
         let mut found = vec![(None, value)];
         for (depth, way) in ways.iter().enumerate() {
-            // A member without a match within it has no rows.
+            // A member without a match has no rows.
             let within = found.into_iter();
             let within = within.filter_map(|(key, value)| Some((key, taken(value, way)?)));
             found = within.collect();

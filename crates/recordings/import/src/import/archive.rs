@@ -64,8 +64,8 @@ impl UnpackedArchive {
     /// Needs memory for one header and one name. If the archive has a single folder at its top, that folder is the recording.
     ///
     /// # Errors
-    /// [`ImportError::Table`] naming the member if the member is damaged, truncated or larger than the archive, if its name leads out of the folder, or for
-    /// links, devices and sparse files. Also for more than a million members, and if a compressed archive exceeds 128 times its size plus 64 MiB.
+    /// [`ImportError::Table`] naming the member if it is damaged, truncated or larger than the archive, or if its name leads out of the folder. Also
+    /// for links, devices and sparse files, for more than a million members, and if a compressed archive exceeds 128 times its size plus 64 MiB.
     /// [`ImportError::Dataset`] if the disk is full, or `Cancelled`.
     pub fn open(
         archive: &Path,

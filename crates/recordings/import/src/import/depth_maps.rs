@@ -112,7 +112,7 @@ impl PlannedMaps {
         &self.name
     }
 
-    /// Writes the maps, after those of `before`, and sets them in `table`, which has the planned rows.
+    /// Writes the maps after the maps of `before`, and sets them in `table`, which has the planned rows.
     fn write(
         &self,
         staged: &StagedFolder,
@@ -125,7 +125,7 @@ impl PlannedMaps {
         let former = former.filter(|path| path.is_file());
         let mut pack = MapPack::create(&staged.path().join(&relative), former.as_deref())?;
         let mut size = before.map_or(Ok(None), |before| size_of_first(before, &self.name))?;
-        // Maps of the array that were read and not written yet, the first at this position.
+        // Maps of the array that were read and not yet written, with the position of the first.
         let mut held: (u64, Vec<Vec<f64>>) = (0, Vec::new());
         for (row, source) in self.of_rows.iter().enumerate() {
             if progress.is_cancelled() {

@@ -69,8 +69,8 @@ impl ImportPlan {
     /// split.
     ///
     /// # Errors
-    /// [`ImportError::Dataset`] naming the key if the map contradicts the header, naming the row if the dataset already has the row, or if `target` is not an
-    /// imported dataset. Otherwise errors of [`run`](ImportPlan::run). After an error `target` is unchanged.
+    /// [`ImportError::Dataset`] naming the key if the map contradicts the header, or naming the row if the dataset already has it. Also if `target`
+    /// is not an imported dataset. Otherwise errors of [`run`](ImportPlan::run). After an error `target` is unchanged.
     ///
     /// ```
     /// # use taceva_core::{Channel, Channels, Clock, SilentProgress, SourceUnit};

@@ -85,7 +85,7 @@ pub struct ImportMap {
     pub ids: IdMap,
     /// Text columns kept for splits: name and column.
     pub attributes: BTreeMap<String, String>,
-    /// Column and unit of the time.
+    /// Column and unit of the time; `None` without a time.
     pub time: Option<TimeMap>,
     /// Rules for rows that are left out.
     pub drop: DropRules,

@@ -50,7 +50,7 @@ pub struct ImportSummary {
     pub tasks: Vec<String>,
     /// Zero subtracted from each force, if the map sets one.
     pub zeros: Vec<ZeroSummary>,
-    /// Weight subtracted from forces and torques, in words.
+    /// Weight subtracted from forces and torques, in words; `None` if no weight is subtracted.
     pub gravity: Option<String>,
     /// Grid and unit of the signals; `None` without signals.
     pub signals: Option<SignalInfo>,
@@ -241,7 +241,7 @@ pub struct Conversion {
     pub is_negated: bool,
     /// Offset subtracted from each cell first, in the unit of the cells.
     pub offset: Option<f64>,
-    /// Factor applied after the offset.
+    /// Factor applied after the offset; `None` for no factor.
     pub scale: Option<f64>,
     /// Number of samples with a value.
     pub present: u64,

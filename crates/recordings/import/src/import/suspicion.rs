@@ -82,7 +82,7 @@ fn plausible(channel: &Channel) -> Option<Plausible> {
     }
 }
 
-/// Detects numbers of `channel` in another unit: metres labelled as millimetres, gram-force labelled as newtons.
+/// Detects numbers of `channel` in another unit: metres labelled as millimetres, gram-force labelled as newtons. `None` for plausible numbers.
 ///
 /// # Units
 /// `values`: numbers in the unit of the channel.

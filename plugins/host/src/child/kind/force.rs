@@ -17,9 +17,9 @@ struct ForceProxy {
     axes: Axes,
     interrupts: bool,
     tare: bool,
-    /// Sequence number of the last reading.
+    /// Sequence number of the last reading; `None` before the first, or if the device does not number readings.
     sequence: Option<u64>,
-    /// Number of lost readings, as stated after the last reading.
+    /// Number of lost readings, as stated after the last reading; `None` if not counted.
     lost: Option<u64>,
 }
 

@@ -26,7 +26,7 @@ struct SensorProxy {
     memory: SharedMemory,
     interrupts: bool,
     scenes: Option<Vec<String>>,
-    /// Sequence number of the last frame.
+    /// Sequence number of the last frame; `None` before the first, or if the device does not number frames.
     sequence: Option<u64>,
 }
 

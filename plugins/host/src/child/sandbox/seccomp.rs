@@ -81,7 +81,7 @@ fn rules(needs: &[Need]) -> Result<Rules, BackendError> {
         .chain(ALWAYS_TOO)
         .map(|call| (*call, Vec::new()))
         .collect();
-    // The other filter denies it: its arguments are in memory, so the C library must fall back to `clone`.
+    // The other filter denies `clone3`, because its arguments are in memory. The C library then falls back to `clone`.
     rules.insert(SYS_clone3, Vec::new());
     rules.insert(
         SYS_clone,

@@ -119,7 +119,7 @@ pub(super) fn default_reduction(parameters: &Parameters) -> u32 {
     (width.max(height) / LONGER_SIDE).clamp(1, 64)
 }
 
-/// Fault of the gel that `args` request, with its severity.
+/// Fault of the gel that `args` request, with its severity, 1 to 5; `None` if no fault is requested.
 pub(super) fn fault(args: &Args) -> Option<(GelFault, u8)> {
     let name = args.get("fault").and_then(ArgValue::as_text)?;
     let severity = u8::try_from(args.whole("severity")).unwrap_or(1);

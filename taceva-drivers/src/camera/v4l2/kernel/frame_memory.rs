@@ -23,7 +23,7 @@ unsafe impl Send for Mapped {}
 impl Mapped {
     /// Maps `length` bytes of the kernel's buffer at `offset` of `camera`, read-only.
     pub(crate) fn new(camera: BorrowedFd<'_>, offset: u64, length: usize) -> Result<Mapped, Errno> {
-        // SAFETY: the kernel chooses an unused address. The offset and the length are those that it gave for a buffer; it rejects others.
+        // SAFETY: the kernel chooses an unused address. The kernel gave the offset and the length for a buffer, and rejects others.
         let start = unsafe {
             mmap(
                 std::ptr::null_mut(),

@@ -149,7 +149,7 @@ impl<'g> Series<'g> {
         let numbers: Option<Vec<u64>> = filled(column).map(whole_number).collect();
         let numbers = numbers.unwrap_or_default();
         let different: HashSet<u64> = numbers.iter().copied().collect();
-        // A draft reads the first rows and the last one: numbers from 1 are not those of pictures from 0.
+        // A draft reads the first rows and the last row. Numbers from 1 do not name pictures from 0.
         let last = whole_number(&column.last);
         may_name(column)
             && last.is_none_or(|last| self.numbers.contains(&last))
@@ -248,7 +248,7 @@ pub(super) fn of(
     groups: &[FileGroup],
     main: &SeenTable<'_>,
 ) -> Vec<FrameLines> {
-    // In each of several tables the numbers may begin anew.
+    // The numbers may restart in each of several tables.
     if main.group.paths.len() > 1 {
         return Vec::new();
     }
@@ -256,7 +256,7 @@ pub(super) fn of(
     let numbered = all.iter().filter_map(|series| {
         let column = column_of(series, main)?;
         let mut lines = series.of_column(main, column);
-        // Numbers in another order, such as those of random points, may count no pictures.
+        // Numbers in another order, such as the numbers of random points, may count no pictures.
         if !is_counting(column) && series.counts(main.rows) && are_times_in_order(main) {
             let in_order = series.of_rows(main).into_iter().take(1);
             lines.extend(in_order.map(|line| format!("# or: {line}")));

@@ -98,7 +98,7 @@ impl fmt::Display for UnitSource {
     }
 }
 
-/// Unit in which the dataset stores a channel.
+/// Unit in which the dataset stores a channel; `None` for an unknown channel.
 pub(crate) fn kept_unit(channel: &str) -> Option<Unit> {
     match channel.as_bytes().first()? {
         b'F' => Some(Unit::Newton),

@@ -27,7 +27,7 @@ pub struct ColumnMap {
     pub is_negated: bool,
     /// Offset subtracted from each cell first, in the unit of the cells.
     pub offset: Option<f64>,
-    /// Factor applied after the offset.
+    /// Factor applied after the offset; `None` for no factor.
     pub scale: Option<f64>,
 }
 

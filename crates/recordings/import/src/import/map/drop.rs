@@ -40,7 +40,7 @@ pub struct DroppedRow {
     pub row: u64,
     /// Table relative to the source folder; `None` if the map has only one table.
     pub table: Option<String>,
-    /// Reason for the exclusion, stored in the summary and in the dataset.
+    /// Reason for the exclusion, stored in the summary and in the dataset; `None` if not stated.
     pub reason: Option<String>,
 }
 

@@ -215,7 +215,7 @@ impl Check<'_> {
                 return Err(self.at(kind.span().start, "unknown `kind`, expected \"rotation\""));
             }
         };
-        // The order in the file is that of the matrix rows.
+        // The order in the file is the order of the matrix rows.
         let mut gives: Vec<_> = written.gives.iter().collect();
         gives.sort_by_key(|(_, unit)| unit.span().start);
         let gives: Result<Vec<_>, DatasetError> = gives

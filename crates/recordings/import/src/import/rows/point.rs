@@ -9,7 +9,7 @@ impl MappedTable<'_> {
             .iter()
             .map(|column| self.table.cell(row, *column))
             .collect();
-        // The folders of a file in the source folder itself are an empty part of its path.
+        // A file directly in the source folder has an empty folder part.
         let names = self.map.ids.point_id.iter();
         let is_given = names
             .zip(&cells)

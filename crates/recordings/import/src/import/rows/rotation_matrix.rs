@@ -78,7 +78,7 @@ mod tests {
             [-1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0],
             [0.0, 0.0, 1.0, 0.0],
         );
-        // cos = −0.28 and sin = 0.96 about z are of the quaternion with z 0.8 and w 0.6.
+        // A rotation about z with cos −0.28 and sin 0.96 has the quaternion z 0.8, w 0.6.
         check(
             [-0.28, -0.96, 0.0, 0.96, -0.28, 0.0, 0.0, 0.0, 1.0],
             [0.0, 0.0, 0.8, 0.6],
