@@ -220,7 +220,7 @@ impl From<&'static ModelInfo> for ChosenModel {
     }
 }
 
-/// Formats everything that identifies the model: its name, and its build or release if that is not the program's.
+/// Formats the identity of the model: its name, with its release for a library and its build for a plugin.
 impl fmt::Debug for ChosenModel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -76,8 +76,8 @@ pub trait ForceTransducer: Send {
         None
     }
 
-    /// Number of readings lost between device and host since the transducer was opened; `None` if the driver does not count them. A reading that a
-    /// newer reading replaced before the caller read it is not lost.
+    /// Number of readings lost between device and host since the transducer was opened; `None` if the driver does not count them. Readings that a
+    /// newer reading overwrote before the caller read them do not count.
     fn lost(&self) -> Option<u64> {
         None
     }

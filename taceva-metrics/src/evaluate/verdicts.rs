@@ -55,7 +55,7 @@ fn of_skill_score(skill: &Score) -> Standing {
 /// Lower end of the interval of a score.
 fn low_end(score: &Score) -> Option<f64> {
     match score.interval {
-        // The value is at the end of its range in every cluster, as for a model without errors, so it is the end itself.
+        // A value at the end of its range in every cluster, as for a model without errors, is its own lower end.
         Interval::Undefined(UndefinedReason::AtEnd) => score.value.scalar(),
         interval => interval.ends().map(|[low, _]| low),
     }

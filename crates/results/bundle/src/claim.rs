@@ -119,7 +119,7 @@ impl Claim {
         scores.find(|score| score.metric == self.metric && score.channel == self.channel)
     }
 
-    /// True if unit, number of samples and definition equal those of `score`.
+    /// True if the claim has the unit, number of samples and definition of `score`.
     pub(crate) fn is_of(&self, score: &Score) -> bool {
         unit_of(score, self.variant.as_deref()) == Some(self.unit)
             && score.n == self.n

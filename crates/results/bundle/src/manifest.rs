@@ -184,7 +184,7 @@ pub(crate) struct SealedManifest {
 }
 
 impl Manifest {
-    /// Files that the manifest does not generate.
+    /// Files that are not generated from the manifest.
     pub(crate) fn given_files(&self) -> impl Iterator<Item = &BundledFile> {
         let files = self.files.iter();
         files.filter(|file| !GENERATED.contains(&file.path.as_str()))
@@ -242,7 +242,7 @@ impl Manifest {
         withheld.any(|own| ![MODEL_ROLE, FRAMES_ROLE].contains(&own.role.as_str()))
     }
 
-    /// Digest that the manifest states of the file `name`.
+    /// Digest of the file `name` in the manifest.
     pub(crate) fn digest(&self, name: &str) -> Option<&str> {
         let file = self.files.iter().find(|file| file.path == name)?;
         Some(&file.sha256)
@@ -251,7 +251,7 @@ impl Manifest {
     /// The sealed text.
     ///
     /// # Errors
-    /// [`BundleError::Results`] if it cannot be written as JSON.
+    /// [`BundleError::Results`] if the manifest cannot be written as JSON.
     pub(crate) fn sealed(&self) -> Result<String, BundleError> {
         let sealed = taceva_results::sealed(self).map_err(|source| BundleError::Results {
             path: MANIFEST.into(),

@@ -31,7 +31,7 @@ pub struct Verification {
     pub summary: Summary,
     /// Remarks for readers.
     pub remarks: Vec<String>,
-    /// Requested level; `None` for the deepest that the files allow.
+    /// Requested level; `None` for the deepest level that the files allow.
     #[serde(skip)]
     pub(crate) asked: Option<Level>,
 }
@@ -120,7 +120,7 @@ pub struct ClaimCheck {
     pub level: Level,
     /// Verdict on the claim.
     pub verdict: Verdict,
-    /// Reason, if the verdict is not `equal`, or why no deeper level was reached.
+    /// Reason for a verdict other than `equal`, or for a missing deeper level.
     pub reason: Option<String>,
     /// True if the bundle lacks the files for a deeper level.
     #[serde(skip)]

@@ -126,7 +126,7 @@ impl ScoreTable {
         }
     }
 
-    /// Scores without variants, for a page of a paper. Scores of planes replace those of their axes.
+    /// Scores without variants, for a page of a paper. Scores of planes replace the scores of their axes.
     #[must_use]
     pub fn headlines(&self) -> ScoreTable {
         let has = |metric: &str, channel: &str| {
@@ -206,7 +206,7 @@ impl ScoreCell {
         self.value.is_some() && self.standing.takes_part()
     }
 
-    /// Remark on its standing: `not better than predicting the mean`, `predictions beyond the trained range (12 %)`; `None` if the value counts without remark.
+    /// Remark on the standing: `not better than predicting the mean`, `predictions beyond the trained range (12 %)`; `None` without a remark.
     pub fn remark(&self) -> Option<String> {
         let words = self.standing.phrase().filter(|_| self.value.is_some())?;
         let share = self

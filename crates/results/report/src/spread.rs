@@ -17,7 +17,7 @@ const OF_LABELS: [(&str, &str); 11] = [
     ("tolerance_interval", CALIBRATION),
     ("r_spatial", "spatial"),
     ("repeatability", "repeatability"),
-    // Nothing is pressed there, so the labels are those of the training.
+    // The samples of this metric are not pressed, so the labels of the training count.
     ("noise_equivalent_force", CALIBRATION),
     ("hysteresis", "load-unload"),
 ];

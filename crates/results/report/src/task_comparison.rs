@@ -256,7 +256,7 @@ fn decide_together(answers: &mut [TaskAnswer], results: &[TaskResult]) {
         let task = results[answer.sides.a].task(&answer.task);
         let mut scores = task.into_iter().flat_map(|task| task.compared());
         let score = scores.find(|score| score.named() == answer.score);
-        // The unit stands beside the verdict, not in it.
+        // The verdict has no unit, because the answer states the unit.
         let better = score.and_then(|score| {
             let question = Question::new(Unit::One, score.better());
             Verdict::of(Ok(decided.clone()), question).better()

@@ -313,7 +313,7 @@ impl Classes {
         cells.collect()
     }
 
-    /// All scores, first those of the task, then those of each class.
+    /// All scores: the scores of the task, then the scores of each class.
     ///
     /// | metric | variants | constant to beat |
     /// |---|---|---|

@@ -270,7 +270,7 @@ fn remarks_on_maps(state: &DepthState) -> Vec<String> {
     remarks.into_iter().flatten().collect()
 }
 
-/// Both parts as one; a part that only one state has is refused.
+/// Merges two parts. A part that only one state has is refused.
 fn both<T>(
     what: &'static str,
     ours: Option<T>,

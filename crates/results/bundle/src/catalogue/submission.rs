@@ -45,8 +45,8 @@ impl Submission {
     /// Verifies the bundle of `request` and reads its numbers.
     ///
     /// # Errors
-    /// [`CatalogueFolderError::Unverified`] for a bundle that differs from its files, and [`CatalogueFolderError::Refused`] for one that is damaged,
-    /// is a draft, or names no sensor.
+    /// [`CatalogueFolderError::Unverified`] for a bundle that differs from its files. [`CatalogueFolderError::Refused`] for a damaged bundle, a
+    /// draft, or a bundle without a sensor name.
     pub(super) fn read(request: &AddRequest) -> Result<Submission, CatalogueFolderError> {
         let path = request.bundle.as_path();
         let refused = |problem: String| CatalogueFolderError::refused(path, problem);
@@ -189,7 +189,7 @@ pub(super) fn results_digest(manifest: &Manifest) -> Option<&str> {
     results.map(|file| file.sha256.as_str())
 }
 
-/// Reason why a manifest is unfinished: a draft, or one without an author or an SPDX licence.
+/// Reason why a manifest is unfinished: a draft, a missing author, or a missing SPDX licence.
 pub(super) fn unfinished(manifest: &Manifest) -> Option<String> {
     let licence = manifest.licence.as_deref().unwrap_or_default();
     if manifest.is_unfinished || manifest.authors.is_empty() || licence.is_empty() {

@@ -224,7 +224,7 @@ impl Measurement {
         self.scale.quantity()
     }
 
-    /// Ratio of the guarded quantity at `inner` to that at `limit`.
+    /// Ratio of the guarded quantity at `inner` to the guarded quantity at `limit`.
     #[must_use]
     pub fn guard_quotient(&self, limit: f64, inner: f64) -> f64 {
         self.scale.quantity_of(inner) / self.scale.quantity_of(limit)

@@ -130,7 +130,7 @@ impl LimitsFile {
         }
         let common = file.decision.clone().unwrap_or_default();
         match common.decision_rule() {
-            // Each limit may state it in its own unit.
+            // Each limit may state the missing setting in its own unit.
             Ok(_) | Err(ConformityError::MissingSetting { .. }) => {}
             Err(error) => return Err(LimitsError::File(format!("[decision]: {error}"))),
         }

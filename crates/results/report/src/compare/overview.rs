@@ -224,7 +224,7 @@ impl Comparison {
                 let p = p_words(p);
                 let alike = self.equivalent(&equals, &equal);
                 match (losers.len(), open.len()) {
-                    // A row has one decision, so an equivalence is not also reported as undecided.
+                    // A row has one decision, so an equivalence is not reported as undecided too.
                     (0, 0) if !equal.is_empty() => (
                         None,
                         format!("no winner; the best value, {start}, is {alike}"),

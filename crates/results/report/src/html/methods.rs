@@ -287,7 +287,7 @@ fn scope(studies: &[Study]) -> String {
     )
 }
 
-/// Name in the plural of the clusters that intervals leave out: `contact points`, `groups by object`, `samples`.
+/// Plural name of the clusters that intervals leave out: `contact points`, `groups by object`, `samples`.
 pub(super) fn clusters(studies: &[Study]) -> String {
     let are_samples = |study: &Study| {
         let intervals = study.scores.iter();

@@ -27,7 +27,7 @@ pub enum Direction {
     Is(Better),
     /// Direction by the metric or variant in this column. Readers see a sign after the name; programs get an additional column `better`.
     OfMetrics,
-    /// Direction by [`Row::better`](super::Row::better), shown like that of [`Direction::OfMetrics`].
+    /// Direction by [`Row::better`](super::Row::better), shown as for [`Direction::OfMetrics`].
     OfRows,
 }
 

@@ -134,7 +134,7 @@ impl Confusion<'_> {
                 .beside(of.hits, of.truth),
         ];
         for score in &mut scores {
-            // A thousand classes of a thousand clusters would take much memory.
+            // Left-out scores of a thousand classes and clusters would take much memory.
             score.estimate.left_out = Vec::new();
         }
         scores
