@@ -88,8 +88,8 @@ pub trait Sensor: Send {
         BTreeMap::new()
     }
 
-    /// True if this machine stamps the frames: on arrival, or by its kernel. The drift of any other clock is subtracted from the stamps. A plugin does not
-    /// pass this on.
+    /// True if this machine stamps the frames: on arrival, or by its kernel. The drift of any other clock is subtracted from the stamps. Plugins
+    /// cannot report this fact.
     fn is_stamped_by_host(&self) -> bool {
         false
     }

@@ -123,7 +123,7 @@ pub struct StudyFiles {
 }
 
 impl StudyFiles {
-    /// Names of all files, except those of recordings.
+    /// Names of all files, except the files of recordings.
     pub(crate) fn names(&self) -> impl Iterator<Item = &String> {
         let inputs = self.states.iter().chain(self.table_names());
         inputs.chain(&self.model)

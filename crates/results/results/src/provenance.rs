@@ -162,7 +162,7 @@ impl Provenance {
 pub struct ModelProvenance {
     /// Name: `ridge`.
     pub name: String,
-    /// Settings, including those that the fit chose.
+    /// Settings, including the settings that the fit chose.
     pub settings: BTreeMap<String, String>,
     /// Digest of the model file; `unknown` for a model in the caller's program.
     pub digest: String,

@@ -178,7 +178,7 @@ impl Classes {
         &self.rule
     }
 
-    /// Counts of all clusters except those in `names`.
+    /// Counts of all clusters except the clusters in `names`.
     pub(crate) fn without_clusters(&self, names: &[&str]) -> Classes {
         let mut left = self.clone();
         left.clusters.remove(names);

@@ -194,7 +194,7 @@ fn front(dots: &[Dot<'_>], panel: &Panel, canvas: &mut Canvas) {
     corners.sort_by(|left, right| left[0].total_cmp(&right[0]));
     let mut steps: Vec<[f64; 2]> = Vec::new();
     for corner in corners {
-        // Step line, because between two models only the faster one is available.
+        // Step line, because between two models only the faster model is available.
         if let Some([_, y]) = steps.last().copied() {
             steps.push([corner[0], y]);
         }
