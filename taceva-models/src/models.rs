@@ -108,13 +108,13 @@ impl Models {
         }
     }
 
-    /// Finds the library model `name`.
+    /// Finds the library model `name`; `None` for an unknown name.
     pub(crate) fn library(&self, name: &str) -> Option<&'static LibraryModel> {
         let mut libraries = self.libraries.iter().copied();
         libraries.find(|model| model.info.name == name)
     }
 
-    /// Finds the plugin estimator `key`.
+    /// Finds the plugin estimator `key`; `None` for an unknown key.
     pub(crate) fn offered(&self, key: &str) -> Option<&Arc<dyn EstimatorFactory>> {
         self.offered.get(key)
     }

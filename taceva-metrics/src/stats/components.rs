@@ -325,7 +325,7 @@ impl Noise {
 
 impl Excess {
     /// Mean of several excesses, such as the excesses of distance and depth. Without a true excess, its interval starts above 0 in at most 5 % of
-    /// cases.
+    /// cases. `None` for no excess.
     pub(crate) fn mean_of(all: &[Excess]) -> Option<Excess> {
         let first = all.first()?;
         if all.len() == 1 {

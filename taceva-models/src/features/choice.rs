@@ -185,7 +185,7 @@ impl FeatureChoice {
         self
     }
 
-    /// The simplest features whose excess is at most one standard error.
+    /// The simplest features whose excess is at most one standard error; `None` without such features.
     pub fn chosen(&self) -> Option<&FeatureTrial> {
         self.tried.iter().find(|trial| trial.is_enough())
     }

@@ -6,7 +6,7 @@ use super::assign::Split;
 use super::error::SplitError;
 use super::part::Part;
 
-/// Columns of a recording on which a split may depend.
+/// Columns of a recording on which a split may depend. Missing columns are `None`.
 ///
 /// # Shapes
 /// Every list except `sections` has one value per row.

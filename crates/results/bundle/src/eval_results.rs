@@ -20,7 +20,7 @@ pub(crate) struct HubEntry<'a> {
     pub(crate) value: f64,
     pub(crate) day: String,
     pub(crate) notes: String,
-    /// URL of the bundle.
+    /// URL of the bundle; `None` if not given.
     pub(crate) address: Option<&'a str>,
 }
 

@@ -102,7 +102,7 @@ pub fn redacted(text: &str, what: &[Redaction]) -> (String, u64) {
     (written, count)
 }
 
-/// Start of the absolute path in a word: at its beginning, or after a character such as `:` or `@`.
+/// Start of the absolute path in a word: at its beginning, or after a character such as `:` or `@`; `None` without a path.
 fn path_start(word: &str) -> Option<usize> {
     let marks = word.char_indices();
     let marks = marks.filter(|(_, own)| ":`<>|@".contains(*own));

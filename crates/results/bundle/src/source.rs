@@ -21,7 +21,7 @@ const UNPACKED: &str = ".taceva-unpacked-bundle-";
 pub(crate) struct Source {
     root: PathBuf,
     files: BTreeMap<String, u64>,
-    /// Temporary folder of an unpacked bundle, removed on drop.
+    /// Temporary folder of an unpacked bundle, removed on drop; `None` for a bundle in a folder.
     unpacked: Option<TemporaryFolder>,
 }
 

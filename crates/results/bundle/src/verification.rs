@@ -66,7 +66,7 @@ pub struct LevelCheck {
     pub level: Level,
     /// True if every file and claim reached the level.
     pub reached: bool,
-    /// Reason why the level was not reached.
+    /// Reason why the level was not reached; `None` if reached.
     pub reason: Option<String>,
 }
 
@@ -109,12 +109,12 @@ pub struct ClaimCheck {
     pub metric: String,
     /// Channel or plane.
     pub channel: String,
-    /// Variant of the metric.
+    /// Variant of the metric; `None` for the metric itself.
     pub variant: Option<String>,
     /// Number in the manifest.
     #[serde(rename = "printed")]
     pub stated: f64,
-    /// Number that was computed again.
+    /// Number that was computed again; `None` if no number was computed.
     pub recomputed: Option<f64>,
     /// Deepest level that the claim reached.
     pub level: Level,

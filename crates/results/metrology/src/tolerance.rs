@@ -33,7 +33,7 @@ pub fn least_n_two_sided(share: f64, confidence: f64) -> Option<u64> {
     (is_share(share) && is_share(confidence)).then(|| least_n(2, |n| held(n) >= confidence))
 }
 
-/// Least number of values whose maximum exceeds `share` of any continuous distribution with `confidence`.
+/// Least number of values whose maximum exceeds `share` of any continuous distribution with `confidence`; `None` unless both are in 0..1.
 #[must_use]
 pub fn least_n_one_sided(share: f64, confidence: f64) -> Option<u64> {
     let held = |n: f64| 1.0 - exponential(n * logarithm(share));

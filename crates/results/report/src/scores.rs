@@ -59,7 +59,7 @@ pub struct ScoreCell {
     pub formatted: FormattedValue,
     /// Both ends of the confidence interval; `None` without an interval.
     pub ends: Option<[f64; 2]>,
-    /// Method of the interval.
+    /// Method of the interval; `None` without an interval.
     pub method: Option<String>,
     /// Number of groups of the split that the interval leaves out; `None` for an interval over contact points.
     pub groups: Option<usize>,

@@ -73,7 +73,7 @@ pub struct TaskAnswer {
     pub values: Sides<Option<f64>>,
     /// Difference with its test, or the reason why there is no difference.
     pub difference: Result<Difference, String>,
-    /// Position of the result that is shown to be better.
+    /// Position of the result that is shown to be better; `None` if there is no such result.
     pub winner: Option<usize>,
 }
 
@@ -119,7 +119,7 @@ impl TaskComparison {
         }
     }
 
-    /// Metric in `metrics` that no result has.
+    /// Metric in `metrics` that no result has; `None` if all are known.
     pub fn unknown_metric<'m>(results: &[TaskResult], metrics: &'m [String]) -> Option<&'m str> {
         let tasks = results.iter().flat_map(|result| &result.tasks);
         let scores = tasks.flat_map(|task| &task.scores);

@@ -21,7 +21,7 @@ pub const OPTIMISTIC: &str = "the scores are optimistic";
 pub struct Provenance {
     /// Version of TacEva.
     pub taceva: String,
-    /// Digest of the dataset.
+    /// Digest of the dataset; `None` without a common dataset.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dataset: Option<String>,
     /// Recordings joined for the result, in the order of the command; empty for a single recording.
@@ -63,7 +63,7 @@ pub struct Provenance {
     /// Settings of the devices that made the recordings, such as `force_rate_hz`; for several recordings, settings that are equal in all.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub devices: BTreeMap<String, String>,
-    /// UTC day of the last recording that has instruments.
+    /// UTC day of the last recording that has instruments; `None` without such a recording.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recorded_on: Option<Date>,
     /// Number of frames behind the result, each counted once for training and once for prediction, whether decoded in this run or before for cached
@@ -71,7 +71,7 @@ pub struct Provenance {
     pub frames_decoded: u64,
     /// Third-party plugins behind the result.
     pub plugins: Vec<String>,
-    /// Digest of the table of samples written next to the result.
+    /// Digest of the table of samples written next to the result; `None` without this table.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub samples_table: Option<String>,
     /// Accepted manual edits of the inputs: file, date, reason and digests.
@@ -168,7 +168,7 @@ pub struct ModelProvenance {
     pub digest: String,
     /// Digest of the training dataset; `unknown` for a model fitted by another program.
     pub fitted_on: String,
-    /// Setting that the fit chose, and the method: `strength with each training sample left out in turn`.
+    /// Setting that the fit chose, and the method: `strength with each training sample left out in turn`; `None` without a choice.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chosen_by: Option<String>,
     /// `given` if the model is in the caller's program and only its predictions were used.

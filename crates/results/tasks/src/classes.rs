@@ -156,7 +156,7 @@ impl Classes {
         self.names.all()
     }
 
-    /// Class that F1, precision and recall describe.
+    /// Class that F1, precision and recall describe; `None` without a positive class.
     #[must_use]
     pub fn positive(&self) -> Option<&str> {
         self.names.positive_name()

@@ -74,7 +74,7 @@ pub struct TaskScores {
     pub clusters: Vec<String>,
     /// Classes in their order; empty for a kind without classes.
     pub names: Vec<String>,
-    /// Class that F1, precision and recall describe.
+    /// Class that F1, precision and recall describe; `None` without a positive class.
     pub positive: Option<String>,
     /// Remarks on labels and predictions, such as rows without a label.
     pub notes: Vec<String>,

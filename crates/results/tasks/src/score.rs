@@ -20,7 +20,7 @@ use crate::estimate::Estimate;
 pub struct TaskScore {
     /// Name of the metric, such as `f1`.
     pub metric: &'static str,
-    /// Second number of the metric, such as `in_truth`, or the class.
+    /// Second number of the metric, such as `in_truth`, or the class; `None` for the metric itself.
     pub variant: Option<String>,
     /// Unit of the value; `None` for a pure number.
     pub unit: Option<&'static str>,

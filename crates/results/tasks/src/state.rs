@@ -27,7 +27,7 @@ const PLACE: &str = "place";
 /// Pose scores that apply to places.
 const OF_PLACES: [&str; 2] = ["pose_translation", "pose_axis"];
 
-/// Sums of one task by cluster, with the definition of the task.
+/// Sums of one task by cluster, with the definition of the task. Absent sums are `None`.
 ///
 /// The scores depend only on the samples: states of parts of a table, merged in any order, have the scores of the whole table.
 ///

@@ -4,7 +4,7 @@ use super::workspace::Workspace;
 use crate::driver::Speed;
 use crate::quantity::Millimetre;
 
-/// Facts about a robot.
+/// Facts about a robot. Undeclared facts are `None`.
 ///
 /// ```
 /// use taceva_core::{RobotFacts, Speed};

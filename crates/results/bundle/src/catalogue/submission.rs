@@ -175,7 +175,7 @@ impl Submission {
     }
 }
 
-/// Protocol of the presses: the scene that `manifest` lists.
+/// Protocol of the presses: the scene that `manifest` lists; `None` without a scene.
 pub(super) fn protocol(manifest: &Manifest) -> Option<String> {
     let mut files = manifest.files.iter();
     let scene = files.find(|file| file.path == SCENE)?;
@@ -235,7 +235,7 @@ pub(super) fn check_outcome(found: &Verification, path: &Path) -> Result<(), Cat
     })
 }
 
-/// Interval of the number of a claim in the results.
+/// Interval of the number of a claim in the results; `None` without an interval.
 fn interval_of<'a>(claim: &Claim, report: &'a EvaluationReport) -> Option<&'a Interval> {
     let score = claim.score_in(&report.scores)?;
     let interval = match claim.variant.as_deref() {

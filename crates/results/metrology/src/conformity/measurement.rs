@@ -162,7 +162,7 @@ impl Measurement {
         self.uncertainty.map(|of| of.freedom)
     }
 
-    /// Coverage factor for a two-sided coverage in 0..1: the ratio of expanded to standard uncertainty.
+    /// Coverage factor for a two-sided coverage in 0..1: the ratio of expanded to standard uncertainty. `None` without an uncertainty.
     #[must_use]
     pub fn coverage_factor(&self, coverage: f64) -> Option<f64> {
         let of = self.uncertainty?;
@@ -172,7 +172,7 @@ impl Measurement {
         ))
     }
 
-    /// Expanded uncertainty for a two-sided coverage in 0..1. On a logarithmic scale relative to the value.
+    /// Expanded uncertainty for a two-sided coverage in 0..1. On a logarithmic scale relative to the value. `None` without an uncertainty.
     #[must_use]
     pub fn expanded(&self, coverage: f64) -> Option<f64> {
         Some(self.coverage_factor(coverage)? * self.uncertainty?.scaled)

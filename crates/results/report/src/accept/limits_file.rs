@@ -39,9 +39,9 @@ pub struct Limit {
     pub channel: String,
     /// Unit of the limit; must equal the unit of the score.
     pub unit: String,
-    /// Greatest accepted value.
+    /// Greatest accepted value; `None` for no upper limit.
     pub most: Option<f64>,
-    /// Least accepted value.
+    /// Least accepted value; `None` for no lower limit.
     pub least: Option<f64>,
     /// True if the whole interval must meet the limit, not only the value. Only in files of version 1.
     #[serde(default)]

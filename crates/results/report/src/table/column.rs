@@ -9,7 +9,7 @@ use super::Words;
 pub struct Column {
     /// Name in the head of the column.
     pub name: Words,
-    /// Common unit of the cells.
+    /// Common unit of the cells; `None` without a common unit.
     pub unit: Option<String>,
     /// Better direction of the cells.
     pub direction: Direction,

@@ -144,7 +144,7 @@ impl Losses {
         }
     }
 
-    /// Mean logarithmic loss with the class shares π as probabilities: −Σ π ln π.
+    /// Mean logarithmic loss with the class shares π as probabilities: −Σ π ln π; `None` for no sample.
     pub(super) fn log_loss_of_shares(&self) -> Option<f64> {
         let seen = self.classes.iter().filter(|count| **count > 0);
         let terms = seen.map(|count| {
