@@ -2,7 +2,7 @@
 //!
 //! ```
 //! use taceva_metrics::distributions::tolerance::two_sided_factor;
-//! // 95 % of the values with confidence 95 %, from 20 of them: mean ± 2.76 standard deviations.
+//! // From 20 values, 95 % of all values with confidence 95 %: mean ± 2.76 standard deviations.
 //! let k = two_sided_factor(20.0, 19.0, 0.95, 0.95).ok_or("valid")?;
 //! assert!((k - 2.760_346).abs() < 1e-6);
 //! # Ok::<(), &str>(())

@@ -1,4 +1,4 @@
-//! Verifies bundles again whose numbers are in a catalogue.
+//! Repeats the verification of bundles whose numbers are in a catalogue.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! Rows of an entry, compared with the claims of the manifest that they name.
+//! Rows of an entry, compared with the claims of the manifest that each row names.
 
 use taceva_report::catalogue::{DEPTHS, Measured};
 

@@ -76,7 +76,7 @@ pub struct Decision {
     pub freedom: Option<f64>,
     /// Coverage factor of the expanded uncertainty; `None` if the uncertainty is unknown.
     pub coverage_factor: Option<f64>,
-    /// Expanded uncertainty at the coverage of the rule, in the unit of the value. A linear approximation if the scale is logarithmic.
+    /// Expanded uncertainty at the coverage of the rule, in the unit of the value; `None` if unknown. Linear approximation for a logarithmic scale.
     pub expanded_uncertainty: Option<f64>,
     /// Limits of the tolerance.
     pub limits: Limits,

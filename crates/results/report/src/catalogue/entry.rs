@@ -28,9 +28,9 @@ pub struct Sensor {
     pub mechanism: Vec<String>,
     /// Shape of the sensor; `None` if unknown.
     pub shape: Option<String>,
-    /// True if no ambient light reaches the camera.
+    /// True if no ambient light reaches the camera; `None` if unknown.
     pub opaque: Option<bool>,
-    /// True if the gel has markers.
+    /// True if the gel has markers; `None` if unknown.
     pub markers: Option<bool>,
     /// Remark on the product that the published numbers describe, if no source states the product.
     pub identity: Option<String>,
