@@ -152,7 +152,7 @@ impl ModelSettings {
     }
 }
 
-/// Parses a number within `range`.
+/// Parses a number within `range`; `None` for any other text.
 pub(crate) fn number<T: FromStr + PartialOrd>(
     text: &str,
     range: impl std::ops::RangeBounds<T>,

@@ -90,7 +90,7 @@ pub trait ForceTransducer: Send {
         Ok(())
     }
 
-    /// Handle that interrupts a pending call from another thread. Without a handle, a call lasts until its deadline.
+    /// Handle that interrupts a pending call from another thread. If `None`, a call lasts until its deadline.
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         None
     }

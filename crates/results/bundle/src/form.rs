@@ -238,7 +238,7 @@ fn origin(manifest: &Manifest, reports: &[EvaluationReport]) -> Option<Damage> {
     })
 }
 
-/// Fault of authors, organization or licence, which generated files repeat.
+/// Fault of authors, organization or licence, which generated files repeat; `None` without a fault.
 pub(crate) fn owners(manifest: &Manifest) -> Option<Damage> {
     let authors = &manifest.authors;
     let organization = manifest.organization.as_ref();
@@ -305,7 +305,7 @@ pub(crate) fn environment(source: &Source) -> Result<Environment, Damage> {
     }
 }
 
-/// Faults of the digest of samples.
+/// First fault of the digest of samples; `None` without a fault.
 fn samples(
     source: &Source,
     manifest: &Manifest,

@@ -27,7 +27,7 @@ pub(crate) fn digest(text: &str) -> Result<String, String> {
     Ok(digest.unwrap_or_default().to_owned())
 }
 
-/// Fault of a header whose dataset is not in `known`.
+/// Fault of a header whose dataset is not in `known`; `None` for a known dataset.
 pub(crate) fn fault(digest: &str, known: &[&str]) -> Option<String> {
     (!known.contains(&digest)).then(|| {
         format!(

@@ -288,7 +288,7 @@ fn unchecked(manifest: &Manifest) -> Vec<String> {
     remarks
 }
 
-/// First file behind a study that is too long to read.
+/// Damage of the first file behind a study that is too long to read; `None` if there is no such file.
 fn too_long(source: &Source, manifest: &Manifest) -> Option<Damage> {
     let names = manifest.studies.iter().flat_map(StudyFiles::names);
     names

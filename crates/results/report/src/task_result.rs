@@ -168,7 +168,7 @@ impl TaskResult {
         digests
     }
 
-    /// The task called `name`.
+    /// The task called `name`; `None` for an unknown name.
     pub(crate) fn task(&self, name: &str) -> Option<&ResultTask> {
         self.tasks.iter().find(|task| task.name == name)
     }
@@ -258,7 +258,7 @@ impl ResultTask {
             })
     }
 
-    /// Score of a metric and variant.
+    /// Score of a metric and variant; `None` if there is no such score.
     pub(crate) fn find(&self, of: &ResultScore) -> Option<&ResultScore> {
         let mut scores = self.scores.iter();
         scores.find(|score| score.metric == of.metric && score.variant == of.variant)

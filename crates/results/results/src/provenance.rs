@@ -27,7 +27,7 @@ pub struct Provenance {
     /// Recordings joined for the result, in the order of the command; empty for a single recording.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub recordings: Vec<RecordingProvenance>,
-    /// View of the frames, for samples with several pictures: `left`, or `left+right` side by side.
+    /// View of the frames, for samples with several pictures: `left`, or `left+right` side by side; `None` for other samples.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub view: Option<String>,
     /// Digests of the tables by name, for results without a dataset.
@@ -42,10 +42,10 @@ pub struct Provenance {
     /// Sentence about neighbouring samples that resemble each other, and about their division into parts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub neighbours: Option<String>,
-    /// Seed of all random choices.
+    /// Seed of all random choices; `None` without a common seed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seed: Option<u64>,
-    /// Scored part: `test`, `all`, …
+    /// Scored part: `test`, `all`, …; `None` without a common part.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub part: Option<String>,
     /// Number of samples in each part, if there is a split.

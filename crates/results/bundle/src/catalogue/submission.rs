@@ -182,14 +182,14 @@ pub(super) fn protocol(manifest: &Manifest) -> Option<String> {
     Some(format!("scene {}", scene.sha256))
 }
 
-/// Digest of the results that `manifest` lists.
+/// Digest of the results that `manifest` lists; `None` without results.
 pub(super) fn results_digest(manifest: &Manifest) -> Option<&str> {
     let mut files = manifest.files.iter();
     let results = files.find(|file| file.path == RESULTS);
     results.map(|file| file.sha256.as_str())
 }
 
-/// Reason why a manifest is unfinished: a draft, a missing author, or a missing SPDX licence.
+/// Reason why a manifest is unfinished: a draft, a missing author, or a missing SPDX licence; `None` if finished.
 pub(super) fn unfinished(manifest: &Manifest) -> Option<String> {
     let licence = manifest.licence.as_deref().unwrap_or_default();
     if manifest.is_unfinished || manifest.authors.is_empty() || licence.is_empty() {

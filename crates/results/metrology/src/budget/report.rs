@@ -48,7 +48,7 @@ pub struct Budget {
     pub k: Option<f64>,
     /// Coverage probability.
     pub p: f64,
-    /// First-order expanded uncertainty k u, unrounded, for either method of the interval.
+    /// First-order expanded uncertainty k u, unrounded, for either method of the interval; `None` if `nu_eff` is undefined, unless `u` is 0.
     #[serde(rename = "U")]
     pub expanded: Option<f64>,
     /// Coverage interval, computed by `method`; `None` if undefined.
@@ -259,7 +259,7 @@ impl Budget {
         Some(format!("interval {low} to {high} {unit}, {}", self.method))
     }
 
-    /// Reservation about the reference: no certificate, or a certificate that had expired on the day of the recording.
+    /// Reservation about the reference: no certificate, or a certificate that had expired on the day of the recording; `None` for neither.
     pub fn reservation(&self) -> Option<&'static str> {
         let stated = self.traceability.as_ref();
         if stated.is_some_and(Traceability::is_expired) {

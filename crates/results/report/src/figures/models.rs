@@ -33,7 +33,7 @@ pub fn model_bench(bench: &ModelBench) -> Option<Figure> {
     })
 }
 
-/// Draws one panel for each channel. Also returns a sentence on the Pareto fronts.
+/// Draws one panel for each channel. Also returns a sentence on the Pareto fronts. `None` without channels.
 fn draw(bench: &ModelBench, time: &str) -> Option<(Canvas, String)> {
     let channels = bench.channels();
     if channels.is_empty() {

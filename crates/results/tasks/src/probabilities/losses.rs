@@ -128,7 +128,7 @@ impl Losses {
         }
     }
 
-    /// Brier score with the class shares π as probabilities: π (1 − π), summed over the classes if there are more than two.
+    /// Brier score with the class shares π as probabilities: π (1 − π), summed over the classes if there are more than two; `None` for no sample.
     pub(super) fn brier_of_shares(&self, of_two: Option<usize>) -> Option<f64> {
         let square = |count: &u64| Quotient {
             above: u128::from(*count) * u128::from(self.n - count),
