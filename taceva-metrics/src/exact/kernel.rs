@@ -45,7 +45,7 @@ impl ErrorUnits {
     }
 }
 
-/// Units of the sums of y, and of the sums of y and ŷ.
+/// Units of the sums over y, and of the sums over y and ŷ.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ValueUnits {
     pub(super) truth: [i64; 2],

@@ -20,7 +20,7 @@ const DENORMAL_POSITION: usize = UNIT_POSITION - 1074;
 /// Position of the square of the least denormal number.
 const DENORMAL_SQUARE_POSITION: usize = UNIT_POSITION - 2148;
 
-/// An exact sum of binary64 numbers and of products of two of them.
+/// Exact sum of binary64 numbers, and of products of two binary64 numbers.
 ///
 /// Adding, merging and subtracting never round; [`to_f64`](ExactSum::to_f64) rounds once. Sums of equal value compare equal, however they
 /// were computed.

@@ -161,7 +161,7 @@ struct Tried {
 
 /// Clusters for the means over both halves of a pattern.
 struct Halves {
-    /// Number of samples, and Σ of A minus Σ of B, of each cluster.
+    /// Number of samples, and Σ of A minus Σ of B, for each cluster.
     clusters: Vec<[f64; 2]>,
 }
 

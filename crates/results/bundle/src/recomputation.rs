@@ -187,7 +187,7 @@ fn of_states(states: &[ReadState]) -> Result<EvaluationReport, Stop> {
     as_read(&report)
 }
 
-/// Scores of the tables in `files`: with the plan of the only state, or with the states of the phases of a run.
+/// Scores of the tables in `files`, by the plan of the only state, or by the states of the phases of a run.
 fn of_tables(
     source: &Source,
     files: &StudyFiles,

@@ -44,7 +44,7 @@ pub struct CompareRequest {
     pub seed: u64,
 }
 
-/// Results of the tests of each common score of each pair of studies, ordered by metric.
+/// Tests of every common score between every pair of studies, ordered by metric.
 #[derive(Clone, Debug)]
 pub struct Comparison {
     /// Names of the studies, in their order.

@@ -196,7 +196,7 @@ fn is_schema(schema: &str) -> bool {
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
-/// Names of planes in `of`, and of channels that are not an axis of one of these planes.
+/// Names of planes in `of`, and names of channels outside these planes.
 ///
 /// ```
 /// use std::collections::BTreeMap;

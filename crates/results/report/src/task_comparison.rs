@@ -16,7 +16,7 @@ use crate::task_result::{ResultScore, ResultTask, TaskResult};
 
 pub use render::TASK_COMPARISON_SCHEMA;
 
-/// Scores of the tasks of several results side by side, with the test of each score of each pair of results.
+/// Task scores of several results side by side, with tests of every score between every pair of results.
 ///
 /// If both results have the same labels and their states are known, a score is tested in pairs by the signs of the clusters. Otherwise it is tested
 /// by the intervals of both scores. All scores and pairs of one task form one family of Holm's procedure. Scores of other definitions, and scores

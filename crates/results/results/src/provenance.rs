@@ -66,8 +66,7 @@ pub struct Provenance {
     /// UTC day of the last recording that has instruments; `None` without such a recording.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recorded_on: Option<Date>,
-    /// Number of frames behind the result, each counted once for training and once for prediction, whether decoded in this run or before for cached
-    /// features.
+    /// Number of frames behind the result, counted once for training and once for prediction. Frames behind cached features count too.
     pub frames_decoded: u64,
     /// Third-party plugins behind the result.
     pub plugins: Vec<String>,

@@ -130,7 +130,7 @@ fn places(studies: &[Study]) -> String {
     }
 }
 
-/// Number of presses of the recordings, and number of contact places of the scored samples.
+/// Number of presses in the recordings, and number of contact places in the scored samples, as text.
 fn pressed(studies: &[Study]) -> String {
     let presses = counted_span(studies, "press", |study| whole(study.made.presses));
     let points = counted_span(studies, "contact point", points);

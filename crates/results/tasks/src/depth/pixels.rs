@@ -49,7 +49,7 @@ pub(super) const MAP_RMSE: usize = 9;
 pub(super) const MAP_BIAS: usize = 10;
 /// Index of the sum of the greatest errors of maps, mm.
 pub(super) const MAP_MAX: usize = 11;
-/// Index of the sum of the ratios of areas of maps.
+/// Index of the sum of area ratios over maps.
 pub(super) const MAP_IOU: usize = 12;
 /// Index of the sum of angles between normals, degrees.
 pub(super) const ANGLES: usize = 13;

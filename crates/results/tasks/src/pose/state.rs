@@ -13,7 +13,7 @@ use crate::error::TaskError;
 use crate::totals::{Totals, checked_counts};
 use crate::vector::minus;
 
-/// Index of the sum of lengths of differences of translations, mm.
+/// Index of the sum of distances between both translations, mm.
 pub(super) const TRANSLATION: usize = 0;
 /// Index of the sum of absolute differences along x, mm; the sums along y and z follow.
 pub(super) const AXES: usize = 1;
