@@ -101,7 +101,7 @@ pub use traceability::{
 pub use unit::{Amount, AmountError, SourceUnit, Unit, UnitError};
 pub use wrench::Wrench;
 
-// For `submit_builtin!`, so that its user need not depend on it.
+// For `submit_builtin!`, so that users of the macro need no dependency on `inventory`.
 #[cfg(feature = "inventory")]
 #[doc(hidden)]
 pub use inventory;

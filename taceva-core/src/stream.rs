@@ -146,7 +146,7 @@ impl<S: SampleSink> SampleSink for Select<S> {
             depth_step: sample.depth_step.filter(|_| kept(Field::DepthStep)),
             repeat: sample.repeat.filter(|_| kept(Field::Repeat)),
             phase: sample.phase.filter(|_| kept(Field::Phase)),
-            // Always kept: like the id, these have no `Field`.
+            // These fields are always kept: like the id, they have no `Field`.
             limited_by: sample.limited_by,
             zero_u_mm: sample.zero_u_mm,
             stamp: sample.stamp.filter(|_| kept(Field::Stamp)),

@@ -61,7 +61,7 @@ impl Model {
         let held = input
             .validation
             .map(|set| channels.labels(set.targets.values));
-        // Shortens the lifetime to that of the labels.
+        // Shortens the lifetime of the input to the lifetime of the labels.
         let mut input = input;
         input.training.targets = Targets::new(&channels.learnt, &values);
         if let Some((set, held)) = input.validation.as_mut().zip(held.as_ref()) {

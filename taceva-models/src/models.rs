@@ -108,13 +108,13 @@ impl Models {
         }
     }
 
-    /// Finds the library model `name`.
+    /// Finds the library model `name`; `None` for an unknown name.
     pub(crate) fn library(&self, name: &str) -> Option<&'static LibraryModel> {
         let mut libraries = self.libraries.iter().copied();
         libraries.find(|model| model.info.name == name)
     }
 
-    /// Finds the plugin estimator `key`.
+    /// Finds the plugin estimator `key`; `None` for an unknown key.
     pub(crate) fn offered(&self, key: &str) -> Option<&Arc<dyn EstimatorFactory>> {
         self.offered.get(key)
     }
@@ -220,7 +220,7 @@ impl From<&'static ModelInfo> for ChosenModel {
     }
 }
 
-/// Formats everything that identifies the model: its name, and its build or release if that is not the program's.
+/// Formats the identity of the model: its name, with its release for a library and its build for a plugin.
 impl fmt::Debug for ChosenModel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

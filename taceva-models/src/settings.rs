@@ -77,7 +77,7 @@ impl ModelSettings {
             .map(|(key, value)| format!("{key}={value}"))
     }
 
-    /// Adds those settings of `others` whose keys are not set.
+    /// Adds each setting of `others` whose key is not set.
     pub(crate) fn or(mut self, others: &[(&str, &str)]) -> ModelSettings {
         for (key, value) in others {
             let entry = self.values.entry((*key).to_owned());
@@ -152,7 +152,7 @@ impl ModelSettings {
     }
 }
 
-/// Parses a number within `range`.
+/// Parses a number within `range`; `None` for any other text.
 pub(crate) fn number<T: FromStr + PartialOrd>(
     text: &str,
     range: impl std::ops::RangeBounds<T>,

@@ -40,7 +40,7 @@ pub enum Body {
     /// A stem of 7 × 7 with pooling, four stages of residual blocks, then the mean over pixels.
     ///
     /// # Reference
-    /// K. He, X. Zhang, S. Ren, J. Sun, "Deep residual learning for image recognition", CVPR 2016. Layers and names are those of torchvision's `resnet`.
+    /// K. He, X. Zhang, S. Ren, J. Sun, "Deep residual learning for image recognition", CVPR 2016. Layers and names follow torchvision's `resnet`.
     Residual(Depth),
     /// A sequence of convolutions, each followed by batch normalisation and ReLU.
     Plain {

@@ -52,7 +52,7 @@ impl Moments {
 }
 
 impl BatchNorm {
-    /// Normalisation with gains of one, biases of zero, running means of zero and running variances of one.
+    /// Normalisation with gains 1, biases 0, running means 0 and running variances 1.
     pub(crate) fn new(channels: usize) -> BatchNorm {
         let ones = Aligned::of(&vec![1.0; channels]);
         BatchNorm {

@@ -1,4 +1,4 @@
-//! Output layer of a network: pooling to features, and linear outputs of these.
+//! Output layer of a network: pooling to features, and linear outputs of the features.
 
 use crate::architecture::Pooling;
 use crate::panel::Aligned;

@@ -1,6 +1,6 @@
 //! Instruction sets. All sets with fused multiply-add give the same bits. The portable set also rounds each product, so the last digits differ.
 //!
-//! `taceva-metrics` selects instruction sets in the same way. The `simd/` folder of each crate proves that the CPU has the instructions.
+//! `taceva-metrics` selects instruction sets in the same way. In both crates, code in `simd/` proves that the CPU has the instructions.
 
 use taceva_core::Isa;
 

@@ -21,7 +21,7 @@ pub enum Schedule {
     /// steps.
     ///
     /// # Reference
-    /// L. N. Smith, N. Topin, "Super-convergence", 2019. Limits and shape are those of PyTorch's `OneCycleLR`.
+    /// L. N. Smith, N. Topin, "Super-convergence", 2019. Limits and shape follow PyTorch's `OneCycleLR`.
     OneCycle {
         /// Share of steps with a rising rate, above 0 and below 1.
         rise: f64,

@@ -1,7 +1,7 @@
 //! Consumers of gradients.
 
-/// Receives the gradient of each parameter as soon as it is computed, while it is in cache. The backward pass no longer needs the old value of the
-/// parameter.
+/// Receives the gradient of each parameter as soon as it is computed, while the gradient is in cache. At that time, the backward pass no longer needs
+/// the old value of the parameter.
 ///
 /// An optimiser updates the parameter; a test stores the gradient.
 pub(crate) trait Update {

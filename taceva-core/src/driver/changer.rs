@@ -53,8 +53,8 @@ pub trait Changer: Send {
     /// After an error the item in place is unknown, and the changer is at rest or stops by itself.
     ///
     /// # Errors
-    /// [`DriverError`] of kind `InvalidArgument` for a name that is not in [`holds`](Changer::holds), `Timeout` if the item is not in place in time,
-    /// `Interrupted`, or the kind of the failure.
+    /// [`DriverError`] of kind `InvalidArgument` for a name not in [`holds`](Changer::holds), `Timeout` if the item is late, `Interrupted`, or the
+    /// kind of the failure.
     fn bring(&mut self, name: &str, deadline: Deadline) -> Result<String, DriverError>;
 
     /// Handle that interrupts a pending call and stops the changer, from any thread; `None` if calls of this changer never block.

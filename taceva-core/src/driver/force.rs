@@ -76,8 +76,8 @@ pub trait ForceTransducer: Send {
         None
     }
 
-    /// Number of readings lost between device and host since the transducer was opened; `None` if the driver does not count them. A reading that a
-    /// newer reading replaced before the caller read it is not lost.
+    /// Number of readings lost between device and host since the transducer was opened; `None` if the driver does not count them. Readings that a
+    /// newer reading overwrote before the caller read them do not count.
     fn lost(&self) -> Option<u64> {
         None
     }
@@ -90,7 +90,7 @@ pub trait ForceTransducer: Send {
         Ok(())
     }
 
-    /// Handle that interrupts a pending call from another thread. Without a handle, a call lasts until its deadline.
+    /// Handle that interrupts a pending call from another thread. If `None`, a call lasts until its deadline.
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         None
     }

@@ -78,7 +78,7 @@ pub trait Sensor: Send {
         Ok(())
     }
 
-    /// Handle that interrupts a pending call from another thread. Without a handle, a call lasts until its deadline.
+    /// Handle that interrupts a pending call from another thread. If `None`, a call lasts until its deadline.
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         None
     }
@@ -88,8 +88,8 @@ pub trait Sensor: Send {
         BTreeMap::new()
     }
 
-    /// True if this machine stamps the frames: on arrival, or by its kernel. The drift of any other clock is subtracted from the stamps. A plugin does not
-    /// pass this on.
+    /// True if this machine stamps the frames: on arrival, or by its kernel. The drift of any other clock is subtracted from the stamps. Plugins
+    /// cannot report this fact.
     fn is_stamped_by_host(&self) -> bool {
         false
     }

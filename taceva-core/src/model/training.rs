@@ -63,7 +63,7 @@ impl<'a> TrainingSet<'a> {
         }
     }
 
-    /// The same samples with the group of each.
+    /// The same samples with the group of each sample.
     #[must_use]
     pub fn with_groups(self, groups: impl Into<Option<&'a [u32]>>) -> TrainingSet<'a> {
         TrainingSet {

@@ -16,7 +16,7 @@ pub use robot::RobotFacts;
 pub use sensor::SensorFacts;
 pub use workspace::Workspace;
 
-/// Facts of a device, by kind. `None` means that a fact is unknown; readers assume no value instead.
+/// Facts of a device, by kind. A fact that is `None` is unknown, and readers must not assume a value.
 ///
 /// ```
 /// use taceva_core::{DriverKind, Facts, RobotFacts};

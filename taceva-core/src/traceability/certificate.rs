@@ -65,11 +65,11 @@ pub struct Certificate {
     pub range: BTreeMap<String, [Amount; 2]>,
     /// Correlations of uncertainties. Pairs without an entry have the correlation 0.
     pub correlation: Vec<StatedCorrelation>,
-    /// Temperature of the calibration, as the certificate states it: `23 ± 2 C`.
+    /// Temperature of the calibration, as the certificate states it: `23 ± 2 C`; `None` if not stated.
     pub temperature: Option<String>,
-    /// Name of the certificate's file.
+    /// Name of the certificate's file; `None` if not stated.
     pub file: Option<String>,
-    /// SHA-256 of the certificate's file, as 64 hexadecimal digits.
+    /// SHA-256 of the certificate's file, as 64 hexadecimal digits; `None` if not stated.
     pub sha256: Option<String>,
 }
 

@@ -93,7 +93,7 @@ impl<'de> Deserialize<'de> for DateText {
             fn visit_str<E>(self, text: &str) -> Result<DateText, E> {
                 Ok(DateText(text.to_owned()))
             }
-            // A date without quotes is a map of one text.
+            // TOML passes a date without quotes as a map with one text.
             fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<DateText, A::Error> {
                 match map.next_entry::<String, String>()? {
                     Some((_, text)) => Ok(DateText(text)),

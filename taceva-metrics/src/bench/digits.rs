@@ -28,7 +28,7 @@ pub fn digits(value: f64, truth: f64) -> f64 {
     if digits > 0.0 {
         digits.min(ALL_DIGITS)
     } else {
-        // Also for NaN, and never −0.
+        // This branch also gives 0 for NaN, and never −0.
         0.0
     }
 }

@@ -94,7 +94,7 @@ impl Kernel {
         }
     }
 
-    /// Computes only the mean absolute error.
+    /// Computes only the mean absolute error; `None` if not finite.
     pub fn run_mae(self, pairs: Paired<&[f64]>) -> Option<f64> {
         match self {
             Kernel::Naive | Kernel::TwoPass | Kernel::Welford => mean_error::<Plain>(pairs),

@@ -27,7 +27,7 @@ pub(crate) static SIGNAL_TO_REPEATABILITY: Metric = Metric {
                     part of repeats explains all differences, and for predictions that never change. Undefined if repeats are equal although presses differ. If \
                     labels differ less between presses than predictions of one press do, the score is flagged `low stimulus` and takes \
                     part in no verdict.",
-    // Without labels it is not known whether there was a signal.
+    // Labels are needed to know that the presses differ, and so that a signal existed.
     needs: Needs::new(REPEAT_NEEDS.fields.with(Field::Truth)).with_least_samples(2),
     formula: Formula(&RepeatFormula {
         finish: |spreads, _| signal_to_repeatability(spreads),

@@ -68,7 +68,7 @@ fn skill(axes: &[Axis<'_>]) -> Finished {
     Ok((&total.spread - &total.unexplained).over(&total.spread))
 }
 
-/// Reference constant of a channel: the given constant, or the mean of truth.
+/// Reference constant of a channel: the given constant, or the mean of truth; `None` for neither.
 fn constant(axis: Axis<'_>) -> Option<f64> {
     let mean = || (axis.sums.n() > 0).then(|| axis.sums.mean(Stream::Truth));
     axis.constant.or_else(mean)

@@ -70,7 +70,7 @@ pub fn draw(draws: Draws, counter: u64, freedom: f64) -> f64 {
         return f64::NAN;
     }
     let tries = draws.of(counter);
-    // A shape below 1 is raised by one, and its number lowered by a power of a uniform one.
+    // A shape below 1 is raised by 1, and the drawn number is multiplied by a power of a uniform number.
     let (raised, lowered) = match shape < 1.0 {
         true => {
             let unit = open_unit(tries.bits(0));

@@ -2,7 +2,7 @@
 //!
 //! ```
 //! use taceva_metrics::distributions::tolerance::two_sided_factor;
-//! // 95 % of the values with confidence 95 %, from 20 of them: mean ± 2.76 standard deviations.
+//! // From 20 values, 95 % of all values with confidence 95 %: mean ± 2.76 standard deviations.
 //! let k = two_sided_factor(20.0, 19.0, 0.95, 0.95).ok_or("valid")?;
 //! assert!((k - 2.760_346).abs() < 1e-6);
 //! # Ok::<(), &str>(())
@@ -59,7 +59,7 @@ pub fn two_sided_factor(n: f64, freedom: f64, share: f64, confidence: f64) -> Op
     if !is_valid(n, freedom, share, confidence) {
         return None;
     }
-    // Half-widths that hold the share about a mean that is off, each with its weight.
+    // Half-widths that contain the share for each error of the mean, with the weights of these errors.
     let halves = nodes(0.0, FAR, WIDTH).into_iter().map(|node| {
         let half = half_width(node.at / n.sqrt(), share);
         [half, 2.0 * node.weight * normal::density(node.at)]
@@ -116,7 +116,7 @@ fn root(function: impl Fn(f64) -> f64, guess: f64) -> Option<f64> {
             return Some(next);
         }
         let found = function(next);
-        // An end that stays twice counts half, so that the other one crosses the zero.
+        // The value at an end that stays twice is halved, so that the next point moves this end.
         if found < 0.0 {
             if last <= low {
                 above /= 2.0;
@@ -138,7 +138,7 @@ fn half_width(off: f64, share: f64) -> f64 {
     let missed = |r: f64| normal::above(r - off) + normal::above(r + off);
     let density = |r: f64| normal::density(r - off) + normal::density(r + off);
     let outside = 1.0 - share;
-    // From the side where all of one tail is outside, Newton's steps only increase.
+    // The start is at most the solution, so Newton's steps only increase.
     let mut r = (off + normal::quantile(share)).max(normal::quantile(f64::midpoint(1.0, share)));
     for _ in 0..60 {
         let next = r + (missed(r) - outside) / density(r);

@@ -68,7 +68,7 @@ pub(crate) trait Family: Send + 'static {
     fn empty(&self) -> Vec<Self::Sums>;
     /// Adds the ascending `rows` of `batch`; all rows for `None`.
     fn deposit(&mut self, sums: &mut [Self::Sums], batch: &Batch, rows: Option<&[u32]>);
-    /// Clusters of the rows of `batch`; by default the contact points.
+    /// Clusters of the rows of `batch`; by default the contact points. `None` for no clusters.
     fn clusters<'a>(&self, batch: &'a Batch) -> Option<Cow<'a, Labels>> {
         batch.points().map(Cow::Borrowed)
     }
@@ -248,7 +248,7 @@ impl Intervals {
         found.map(|(_, interval)| *interval)
     }
 
-    /// Value of the variant called `name` computed from clusters.
+    /// Value of the variant called `name` computed from clusters; `None` for an unknown name.
     pub(crate) fn value_of(&self, name: &str) -> Option<Finished> {
         let mut values = self.values.iter();
         let found = values.find(|(known, _)| known == name);

@@ -36,7 +36,7 @@ pub struct Metric {
     pub better: Better,
     /// Variants with their own direction.
     pub variants: &'static [(&'static str, Better)],
-    /// The unit of its values.
+    /// Unit of the values.
     pub unit: ScoreUnit,
     /// Range of possible values and interval ends.
     pub range: Range,
@@ -60,7 +60,7 @@ pub struct Metric {
     pub decided_by: Option<&'static str>,
     /// Rule for the standing of the metric's scores in verdicts.
     pub(crate) verdict: VerdictRule,
-    /// Value of the deciding variant from chance alone. Verdicts require an interval that excludes this value.
+    /// Value that the deciding variant has by chance alone. Verdicts require an interval that excludes this value.
     pub(crate) chance: Option<f64>,
     /// Family with the sums of the metric.
     pub(crate) family: &'static FamilyKind,

@@ -52,10 +52,10 @@ fn of_skill_score(skill: &Score) -> Standing {
     Standing::of_value(low_end(skill), skill.value.scalar())
 }
 
-/// Lower end of the interval of a score.
+/// Lower end of the interval of a score; `None` without an interval.
 fn low_end(score: &Score) -> Option<f64> {
     match score.interval {
-        // The value is at the end of its range in every cluster, as for a model without errors, so it is the end itself.
+        // A value at the end of its range in every cluster, as for a model without errors, is its own lower end.
         Interval::Undefined(UndefinedReason::AtEnd) => score.value.scalar(),
         interval => interval.ends().map(|[low, _]| low),
     }

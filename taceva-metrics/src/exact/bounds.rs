@@ -93,7 +93,7 @@ impl Bounds {
             truth: if streams.intersects(values) {
                 Range::new(truth, reach(Stream::TruthSquared))
             } else {
-                // No stream sums y: it only has to be a number with which the terms of sMAPE do not overflow.
+                // No stream sums y. The range only keeps the terms of sMAPE from overflowing.
                 Range {
                     least: f64::from_bits(1),
                     ..Range::new(truth, 0)

@@ -42,8 +42,8 @@ impl Grid {
     pub(super) const REACH: i32 = -FINE;
     /// Greatest distance as in [`REACH`](Grid::REACH) for a value that is squared, or multiplied by a value of another grid.
     ///
-    /// A square's last place is at twice the exponent less 52, on a grid of twice the top plus 1: half the reach. The rounding error of a square ends
-    /// 104 below twice the exponent, on a grid of twice the top less 53: one more. For a product, both exponents and both tops add up.
+    /// For exponent e and top t, the last place of a rounded square needs 2e − 52 ≥ 2t + 1 − `REACH` − 52. Its rounding error ends at 2e − 104, on a
+    /// grid of top 2t − 53, and allows one exponent more. For a product, both exponents and both tops add up.
     pub(super) const REACH_OF_SQUARES: i32 = (Grid::REACH - 1) / 2;
 
     /// Exponents of the units of both sums, coarse first.

@@ -1,8 +1,8 @@
 //! Inner loops that sum a block of pairs in units of the streams' grids.
 //!
-//! A block is visited twice: once for the sums of y − ŷ and once for the other sums, so that the sums of one visit fit the registers of any
-//! machine. Between the visits the block stays in the L1 cache. The first visit also checks that all pairs are within [`Bounds`]. If a pair is
-//! outside, the sums of this visit are discarded.
+//! A block is visited twice: once for the sums of y − ŷ and once for the other sums. The sums of one visit then fit the registers of any machine.
+//! Between the visits the block stays in the L1 cache. The first visit also checks that all pairs are within [`Bounds`]. If a pair is outside, the
+//! sums of this visit are discarded.
 
 use super::bounds::{Bounds, Grids, TERMS};
 use super::grid::{DEPTH, GridSum, ProductSum, ProductUnits};
@@ -45,7 +45,7 @@ impl ErrorUnits {
     }
 }
 
-/// Units of the sums of y, and of the sums of y and ŷ.
+/// Units of the sums over y, and of the sums over y and ŷ.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ValueUnits {
     pub(super) truth: [i64; 2],

@@ -1,7 +1,7 @@
 //! Instruction sets for sums. All compute the same bits and differ only in speed.
 //!
-//! `taceva-network` has its own similar file. Each instruction set is a type in `simd/`. A value of the type proves that the processor has the
-//! instructions, and the operations are the operations that sums need.
+//! `taceva-network` has its own similar file. Each instruction set is a type in `simd/`, with the operations that sums need. A value of the
+//! type proves that the processor has the instructions.
 
 use taceva_core::Isa;
 

@@ -53,7 +53,7 @@ impl Moments {
         )
     }
 
-    /// RN(√variance).
+    /// RN(√variance); `None` for `ddof` values or fewer.
     pub(crate) fn deviation(&self, ddof: u64) -> Option<f64> {
         self.variance(ddof).map(f64::sqrt)
     }

@@ -19,7 +19,7 @@ impl Parts {
         let (mut fitting, mut strays) = (0, 0);
         for pair in pairs.iter() {
             let fits = bounds.hold(pair);
-            // Without a branch, which would be mispredicted at each stray.
+            // Avoids a branch, which would be mispredicted at each stray.
             let place = if fits {
                 fitting
             } else {

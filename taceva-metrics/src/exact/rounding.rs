@@ -35,7 +35,7 @@ fn round_magnitude(mantissa: u64, inexact: bool, exponent: i32) -> f64 {
         let up = rest > half || (rest == half && (inexact || kept % 2 == 1));
         kept + u64::from(up)
     };
-    // Bit 52 of `kept`, where set, is one more in the exponent field; so is a carry out of the mantissa, into infinity too.
+    // A set bit 52 of `kept` adds 1 to the exponent field. A carry out of the mantissa does so too, up to infinity.
     let exponent_field = u64::from((last_place - LEAST).unsigned_abs());
     f64::from_bits((exponent_field << 52) + kept)
 }

@@ -1,4 +1,4 @@
-//! Map sorted by key. For each pair of types it compiles to a small fraction of the code of a `BTreeMap`.
+//! Map sorted by key. Each pair of types compiles to a small fraction of the code of a `BTreeMap`.
 
 use std::borrow::Borrow;
 use std::slice;

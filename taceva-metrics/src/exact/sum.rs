@@ -20,13 +20,13 @@ const DENORMAL_POSITION: usize = UNIT_POSITION - 1074;
 /// Position of the square of the least denormal number.
 const DENORMAL_SQUARE_POSITION: usize = UNIT_POSITION - 2148;
 
-/// An exact sum of binary64 numbers and of products of two of them.
+/// Exact sum of binary64 numbers, and of products of two binary64 numbers.
 ///
 /// Adding, merging and subtracting never round; [`to_f64`](ExactSum::to_f64) rounds once. Sums of equal value compare equal, however they
 /// were computed.
 ///
-/// The sum is a fixed-point number of 32-bit digits, each in an `i64` whose upper half collects carries, so a deposit changes only a few
-/// neighbouring digits. Eight digits around the summed values are stored inline. The full range is allocated only for sums that need more.
+/// The sum is a fixed-point number of 32-bit digits, each in an `i64` whose upper half collects carries. A deposit changes only a few neighbouring
+/// digits. Eight digits around the summed values are stored inline. The full range is allocated only for sums that need more.
 ///
 /// ```
 /// use taceva_metrics::ExactSum;

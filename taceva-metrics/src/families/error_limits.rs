@@ -34,7 +34,7 @@ pub(crate) const LIMIT_NEEDS: Needs =
 pub(crate) struct LimitFormula {
     /// Computation of the numbers, in the unit of the channel.
     pub(crate) finish: fn(&Errors<'_>, Unit) -> Numbers,
-    /// Factor of the standard deviation in the numbers, which is kept for other choices of clusters.
+    /// Factor of the standard deviation in the numbers, which is the same for other selections of clusters.
     pub(crate) factor: fn(&NormalSample) -> Option<f64>,
     /// Replacement of jackknife intervals by more accurate intervals.
     pub(crate) settle: fn(&mut Intervals, &Whole<'_>),
@@ -112,7 +112,7 @@ impl Channelwise for ErrorLimits {
             sums.n += 1;
             let difference = pair.residual();
             if !is_valid(difference) {
-                // Too large for a column, though its pair is not.
+                // The difference is too large for a column, but the pair is valid.
                 sums.line.add(pair.reference, pair.estimate);
                 run.add(difference);
                 return;

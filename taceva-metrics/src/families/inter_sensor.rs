@@ -54,7 +54,7 @@ pub(crate) struct InterSensor {
 }
 
 impl InterSensor {
-    /// The family for `plan`.
+    /// The family for `plan`; `None` if a channel is missing.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Option<InterSensor> {
         let position = |name| plan.channels().position(name);
         Some(InterSensor {

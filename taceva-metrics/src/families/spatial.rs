@@ -43,7 +43,7 @@ pub(crate) struct Spatial {
 }
 
 impl Spatial {
-    /// The family for `plan`.
+    /// The family for `plan`; `None` without a needed channel or footprint.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Spatial> {
         let footprint = plan.facts().footprint?;
         let channels = plan.channels();

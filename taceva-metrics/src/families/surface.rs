@@ -59,7 +59,7 @@ pub(crate) struct Surface {
 }
 
 impl Surface {
-    /// The family for `plan`.
+    /// The family for `plan`; `None` without depth or force.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Surface> {
         let position = |name: &'static str| plan.channels().position(name).ok_or(name);
         let both = |[first, second]: [&'static str; 2]| Ok([position(first)?, position(second)?]);

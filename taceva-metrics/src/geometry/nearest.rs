@@ -59,7 +59,7 @@ impl NearestPoints {
             .partition_point(|(point, _)| point[0] < place[0]);
         let (left, right) = self.sorted.split_at(middle);
         let mut best = None;
-        // A squared distance is at least that along x, also when rounded: beyond it no point is nearer or equally near.
+        // A squared distance is at least its part along x, even rounded. Beyond this part, no point is nearer or equally near.
         for (points, backwards) in [(right, false), (left, true)] {
             let mut visit =
                 |&(point, index): &(Point, usize)| closer(&mut best, place, point, index);

@@ -213,7 +213,7 @@ impl Interval {
 
     /// Method in words: `jackknife by point_id, G=32`, `jackknife by point_id, G=32, logarithmic` or
     /// `Poisson bootstrap by point_id (percentile), G=32, B=1000, seed=0`. If every sample is its own cluster,
-    /// `, samples taken as independent` replaces ` by point_id`.
+    /// `, samples taken as independent` replaces ` by point_id`. `None` without an interval.
     pub fn method(&self) -> Option<String> {
         match self {
             Interval::Jackknife {

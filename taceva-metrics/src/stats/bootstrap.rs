@@ -111,7 +111,7 @@ impl PoissonBootstrap {
             clusters: clusters.len(),
             carried: carried.map(|carried| [standard_deviation(&carried), freedom]),
         };
-        // A scale changes no percentile, and replicates are in the range. If none differs from the value, `Estimated::ends` decides.
+        // Percentiles do not depend on a scale, and replicates are in the range. If all replicates equal the value, `Estimated::ends` decides.
         let ends = match self.ends {
             BootstrapEnds::Percentile if standard_error > 0.0 => {
                 Ok(estimated.within(percentiles(&mut replicates), Scale::Own, freedom))

@@ -167,7 +167,7 @@ impl ClusteredBins {
             (low + high) / 2.0
         };
         let value = (variance - noise.variance).max(0.0).sqrt();
-        // With so few degrees of freedom of chance, no excess is shown.
+        // With so few degrees of freedom of the noise, no excess is shown.
         let low = match noise.freedom >= LEAST_FREEDOM {
             true => (at(TWO_SIDED) * noise.variance).sqrt().min(value),
             false => 0.0,
@@ -261,7 +261,7 @@ impl ClusteredBins {
         if of_cluster <= 0.0 || clusters == 0 {
             return 0.0;
         }
-        // The bins of each cluster, with its share of them and its distance from their means.
+        // Bins of each cluster, with the cluster's share of the samples and its distance from the mean of the bin.
         let mut of_clusters: Vec<Vec<(usize, f64, Option<f64>)>> = vec![Vec::new(); clusters];
         for (bin, (parts, (n, mean))) in self.bins.iter().zip(totals).enumerate() {
             for part in parts {
@@ -325,7 +325,7 @@ impl Noise {
 
 impl Excess {
     /// Mean of several excesses, such as the excesses of distance and depth. Without a true excess, its interval starts above 0 in at most 5 % of
-    /// cases.
+    /// cases. `None` for no excess.
     pub(crate) fn mean_of(all: &[Excess]) -> Option<Excess> {
         let first = all.first()?;
         if all.len() == 1 {

@@ -70,7 +70,7 @@ pub(super) struct Flips {
 impl Flips {
     /// Interval of the differences with a p value above `level`.
     fn interval(&self, level: f64) -> [f64; 2] {
-        // p(δ) is the share of patterns that count: of N patterns more than level × N must.
+        // p(δ) is the share of patterns that count, so more than level × N of N patterns must count.
         let patterns = self.from_below.iter().fold(0.0, |count, _| count + 1.0);
         let mut skipped = 0.0;
         let mut at = 0;
@@ -240,7 +240,7 @@ impl Difference {
         if !(margin > 0.0 && margin.is_finite()) {
             return Err(ComparisonError::Margin(margin));
         }
-        // The test of the nearer bound has the larger p. On the bound it is 0.5, for any standard error.
+        // The test of the nearer bound has the larger p. On the bound p is 0.5, for any standard error.
         let inside = margin - self.value.abs();
         if inside.abs() <= 0.0 {
             return Ok(0.5);

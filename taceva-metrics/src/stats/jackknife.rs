@@ -117,7 +117,7 @@ pub(crate) fn standard_error(value: f64, left_out: &[LeftOut]) -> Result<f64, Un
 /// h_j θ − (h_j − 1) θ_(−j), and the variance is the mean of z_j², z_j² = (pseudo_j − mean)² / (h_j − 1).
 ///
 /// A variance from few clusters is itself uncertain. With κ = mean(z⁴) / mean(z²)² the variance has 2 g / (κ − (g − 3)/(g − 1)) degrees of freedom.
-/// These are g − 1 for the κ = 3 of normal pseudo-values, never more, and at least [`LEAST_FREEDOM`].
+/// Normal pseudo-values have κ = 3 and g − 1 degrees. The number is at most g − 1 and at least [`LEAST_FREEDOM`].
 ///
 /// # Reference
 /// Busing, Meijer and van der Leeden, Delete-m jackknife for unequal m, Statistics and Computing 9 (1999); Satterthwaite,

@@ -66,7 +66,7 @@ impl PairedClusters {
         &self.counts
     }
 
-    /// Σ of A minus Σ of B of the clusters, in the order of names.
+    /// Σ of A minus Σ of B for each cluster, in the order of names.
     pub(super) fn differences(&self) -> &[ExactSum] {
         &self.differences
     }

@@ -28,7 +28,7 @@ use crate::exact::Dyadic;
 ///     b.try_add(point, error_b)?;
 /// }
 /// let difference = SignFlip::default().test(Sides { a: &a, b: &b })?;
-/// // Only all signs as they are and all reversed give so large a sum: 2 of 2⁵ patterns.
+/// // Only the observed signs and all reversed signs give so large a sum: 2 of 2⁵ patterns.
 /// assert_eq!(difference.p, 2.0 / 32.0);
 /// # Ok::<(), taceva_metrics::ComparisonError>(())
 /// ```
@@ -123,7 +123,7 @@ impl SignFlip {
             }
             tried(patterns, true)
         } else {
-            // The observed signs are one pattern more than those drawn.
+            // The observed signs are one pattern in addition to the drawn patterns.
             try_pattern(&|_| false);
             let mut signs = vec![0; clusters.div_ceil(64)];
             for flip in 0..self.flips {
@@ -161,7 +161,7 @@ struct Tried {
 
 /// Clusters for the means over both halves of a pattern.
 struct Halves {
-    /// Number of samples, and Σ of A minus Σ of B, of each cluster.
+    /// Number of samples, and Σ of A minus Σ of B, for each cluster.
     clusters: Vec<[f64; 2]>,
 }
 

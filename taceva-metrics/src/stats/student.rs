@@ -74,7 +74,7 @@ impl Split {
         // √near × far^(ν/2) / B(ν/2, 1/2), which both series share.
         let front = near.sqrt() * power(far, half) * gamma_ratio(half) * (FRAC_2_SQRT_PI / 2.0);
         if front <= 0.0 {
-            // At 0, or so far out that the remainder underflows.
+            // t is 0, or so large that the remainder underflows.
             let within = if near < far { 0.0 } else { 1.0 };
             return Split {
                 within,

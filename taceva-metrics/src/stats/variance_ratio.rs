@@ -12,7 +12,7 @@ fn cube_root(of: f64) -> f64 {
     if of <= 0.0 {
         return 0.0;
     }
-    // From above, steps only decrease.
+    // From a start above the root, steps only decrease.
     let mut root = if of > 1.0 { of } else { 1.0 };
     loop {
         let next = (2.0 * root + of / (root * root)) / 3.0;

@@ -32,8 +32,8 @@ use crate::training::problem::Problem;
 /// Tries models, the cheapest first, and chooses one.
 ///
 /// The training part is divided into five folds of whole groups, or of runs of neighbouring samples. A trial learns from three folds, chooses
-/// settings on the fourth and computes its error on the fifth. All models are tried on the first fold. The small network first trains a quarter of
-/// its epochs, and all epochs if the comparison is still open. If the network is clearly ahead, it is chosen, and costlier models are not tried.
+/// settings on the fourth and computes its error on the fifth. All models are tried on the first fold. The small network first trains for a quarter
+/// of its epochs, and for all epochs if the comparison is open. If the network is clearly ahead, it is chosen, and costlier models are not tried.
 ///
 /// Otherwise the other models continue to the next fold. A model drops out if the best model is ahead by three standard errors of the difference,
 /// computed by group. It also drops out if another model is as good with a tenth of the work. Of the remaining models, the model with the least error

@@ -142,7 +142,7 @@ fn left_out(
         });
         let squares = squares_on(&directions, &design.of(&held), &labels);
         for (used, sums) in total.iter_mut().enumerate() {
-            // A fit with fewer directions than requested counts with all of them.
+            // A fit that found fewer directions than requested uses all its directions.
             let own = &squares[directions.count() - used.min(directions.count())];
             sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
         }

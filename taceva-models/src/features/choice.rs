@@ -37,7 +37,7 @@ impl OpenFeatures {
     }
 
     /// Candidate features around `spec`, the simplest first. Grids have a quarter, half, the same and twice the resolution, as far as frames of
-    /// `info` allow. Signals have one grid. Each grid is tried without a reference and, if there is one, with the difference from it.
+    /// `info` allow. Signals have one grid. Each grid is tried without a reference and, if there is one, with the difference from the reference.
     ///
     /// ```
     /// use taceva_core::{FrameInfo, PixelFormat};
@@ -185,7 +185,7 @@ impl FeatureChoice {
         self
     }
 
-    /// The simplest features whose excess is at most one standard error.
+    /// The simplest features whose excess is at most one standard error; `None` without such features.
     pub fn chosen(&self) -> Option<&FeatureTrial> {
         self.tried.iter().find(|trial| trial.is_enough())
     }

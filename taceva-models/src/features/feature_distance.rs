@@ -174,7 +174,7 @@ impl DistanceLimits {
             along: quantile(along.collect()).max(1.0),
             beside: quantile(beside.collect()).max(ROUNDING * spread),
         };
-        // At least one of two limits is exceeded more often than a single one.
+        // Samples exceed at least one of two limits more often than a single limit.
         let both = apart.iter().map(|apart| limits.distance(*apart));
         let both = quantile(both.collect()).max(1.0);
         DistanceLimits {

@@ -263,7 +263,7 @@ impl FeatureSpec {
     }
 }
 
-/// Parses columns and rows of cells, as `WIDTHxHEIGHT` or as one number for both.
+/// Parses columns and rows of cells, as `WIDTHxHEIGHT` or as one number for both; `None` for any other text.
 pub(super) fn size(text: &str) -> Option<(u32, u32)> {
     let side = |text| number(text, 1..=FeatureSpec::SIDE_MAX);
     match text.split_once('x') {

@@ -24,7 +24,7 @@ impl Model {
             .iter()
             .map(|tensor| digested(&tensor.name, tensor.kind, &tensor.shape, &tensor.bytes));
         let card = seal_over(&card, &digested.collect::<Vec<_>>())?;
-        // Only one key: the order of several is undefined.
+        // Only one key, because the order of several keys is undefined.
         let metadata = HashMap::from([(CARD.to_owned(), card)]);
         let views: Result<Vec<_>, _> = tensors
             .iter()

@@ -19,7 +19,7 @@ pub struct FitInput<'a> {
     pub input: InputInfo,
     /// Training part, with features of an [`Extractor`](crate::Extractor). Principal components are computed later.
     pub training: TrainingSet<'a>,
-    /// Validation part, on which settings are chosen.
+    /// Validation part, on which settings are chosen; `None` without this part.
     pub validation: Option<TrainingSet<'a>>,
     /// Provenance of the samples.
     pub provenance: Provenance,

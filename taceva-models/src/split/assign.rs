@@ -23,7 +23,7 @@ pub struct Split {
     pub test: Vec<usize>,
     /// Rows that belong to no part.
     pub left_out: Vec<usize>,
-    /// Note for readers of results.
+    /// Note for readers of results; `None` for no note.
     pub note: Option<String>,
 }
 

@@ -6,7 +6,7 @@ use super::assign::Split;
 use super::error::SplitError;
 use super::part::Part;
 
-/// Columns of a recording on which a split may depend.
+/// Columns of a recording on which a split may depend. Missing columns are `None`.
 ///
 /// # Shapes
 /// Every list except `sections` has one value per row.
@@ -88,7 +88,7 @@ impl SplitInput<'_> {
         }
         let mut order: Vec<usize> = (0..self.rows).collect();
         order.sort_by_key(|&row| places[row]);
-        // Last position so far, from either side: of a validation or test sample, and of a test sample.
+        // Visits rows in both directions, with the last position of a validation or test sample, and of a test sample.
         let mut near = vec![false; self.rows];
         let mut look = |order: &mut dyn Iterator<Item = usize>| {
             let mut last: [Option<usize>; 2] = [None, None];

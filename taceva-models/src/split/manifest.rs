@@ -17,7 +17,7 @@ pub struct SplitManifest {
     pub seed: u64,
     /// Number of samples in each part.
     pub counts: SplitCounts,
-    /// Note for readers of the record.
+    /// Note for readers of the record; `None` for no note.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
     /// Ids of the training samples.

@@ -64,10 +64,10 @@ pub struct ModelCard {
     /// Form of the model; `None` for a linear model or a network.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub form: Option<Form>,
-    /// Record of an automatic choice of model.
+    /// Record of an automatic choice of model; `None` without this choice.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub auto: Option<AutoCard>,
-    /// Record of an automatic choice of features.
+    /// Record of an automatic choice of features; `None` without this choice.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub feature_choice: Option<FeatureChoice>,
     /// Network settings; `None` for other models.
@@ -76,10 +76,10 @@ pub struct ModelCard {
     /// Network settings of each member of an ensemble; empty for other models.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ensemble: Vec<NetworkCard>,
-    /// Library that fitted the model and is needed to read it.
+    /// Library that fitted the model and is needed to read it; `None` for other models.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub library: Option<LibraryCard>,
-    /// Plugin that fitted the model and is needed for predictions.
+    /// Plugin that fitted the model and is needed for predictions; `None` for other models.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plugin: Option<PluginCard>,
 }
@@ -176,7 +176,7 @@ pub struct SampleCounts {
 /// Provenance of the samples of a fit.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
-    /// Digest of the recording, `sha256:…`. For several recordings, the digest of all recordings in order.
+    /// Digest of the recording, `sha256:…`. For several recordings, the digest of all recordings in order. `None` if unknown.
     pub data: Option<String>,
     /// Digest of each recording, in order, if there are several.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -190,7 +190,7 @@ pub struct Provenance {
     pub split: Option<SplitCard>,
     /// Further notes for readers.
     pub notes: Vec<String>,
-    /// Cross-validation scores, for a model fitted to all samples.
+    /// Cross-validation scores, for a model fitted to all samples; `None` without a cross-validation.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub validation: Option<ValidationCard>,
     /// Task whose classes the model predicts; `None` for measured channels.

@@ -26,7 +26,7 @@ pub enum ChosenBy {
 pub struct Choice {
     /// Criterion of the choice.
     pub by: ChosenBy,
-    /// Name of the chosen setting, such as `strength` or `components`.
+    /// Name of the chosen setting, such as `strength` or `components`; `None` without a choice.
     pub setting: Option<String>,
     /// Choice for each channel.
     pub channels: Vec<ChannelChoice>,

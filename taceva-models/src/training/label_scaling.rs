@@ -71,7 +71,7 @@ pub fn label_means(targets: Targets<'_>) -> Vec<f64> {
     let mean = |channel: usize| {
         let own = || targets.values.iter().skip(channel).step_by(channels.max(1));
         let (sum, count) = own().fold((0.0, 0.0), |(sum, count), label| (sum + label, count + 1.0));
-        // Limits the rounded mean to the label range: for equal labels it is their value.
+        // Limits the rounded mean to the label range. For equal labels, the mean is their value.
         let least = own().copied().fold(f64::INFINITY, f64::min);
         let greatest = own().copied().fold(f64::NEG_INFINITY, f64::max);
         (sum / count).max(least).min(greatest)

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::{Convolution, winograd};
 use crate::picture::Picture;
 
-/// Maximum number of transformed weights per tile of a picture in [`ConvolutionForm::Mixed`]: 128 channels at 4 tiles, 256 channels at 13 tiles.
+/// Maximum number of transformed weights per tile of a picture in [`ConvolutionForm::Mixed`]: 128 channels from 4 tiles on, 256 from 13 on.
 const WEIGHTS_A_TILE: usize = 3 << 16;
 
 /// Algorithm for convolutions with a 3 × 3 kernel and stride 1. The algorithms round differently, so results differ in the last digits.
@@ -24,8 +24,8 @@ pub enum ConvolutionForm {
     /// Winograd's F(4 × 4, 3 × 3): tiles of 4 × 4 outputs with a quarter of the products. Fastest for batches, and used in training.
     ///
     /// # Reference
-    /// A. Lavin, S. Gray, "Fast algorithms for convolutional neural networks", CVPR 2016. The points used here are 0, ±√½, ±√2 and ∞. Their errors are smaller
-    /// than those of the paper's points 0, ±1, ±2 and ∞.
+    /// A. Lavin, S. Gray, "Fast algorithms for convolutional neural networks", CVPR 2016. The points used here, 0, ±√½, ±√2 and ∞, have smaller
+    /// errors than the paper's points 0, ±1, ±2 and ∞.
     #[serde(rename = "winograd-4x4")]
     Winograd,
 }

@@ -78,8 +78,8 @@ impl Job for Pool<'_> {
                 let columns = window(x, input.width).map(|x| x * panels);
                 let first_column = u32::from(x == 0);
                 for panel in 0..panels {
-                    // Nothing is greater than NaN and the first position always wins, so a NaN is kept. Positions outside the picture never win.
-                    // Above and to the left, `is_in` excludes them. Below and to the right, they repeat a value that was compared before.
+                    // The first position always wins and no value is greater than NaN, so a NaN is kept. Positions outside the picture never win.
+                    // Above and to the left, `is_in` excludes them. Below and to the right, they repeat a value that was already compared.
                     let (mut best, mut choice) = ([0.0_f32; PANEL], [0_u32; PANEL]);
                     for (row, line) in PLACES.into_iter().zip(lines) {
                         for (column, start) in PLACES.into_iter().zip(columns) {

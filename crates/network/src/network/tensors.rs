@@ -117,7 +117,7 @@ impl Network {
         tensors
     }
 
-    /// Values of `learnt` in slot order. Names and shapes must equal those of [`learnt`](Network::learnt).
+    /// Values of `learnt` in slot order. Names and shapes must equal the output of [`learnt`](Network::learnt).
     pub(crate) fn slotted(&self, learnt: &[NamedTensor]) -> Vec<Aligned> {
         let mut carrier = self.clone();
         let mut tensors = carrier.tensors();
@@ -134,7 +134,7 @@ impl Network {
             .collect()
     }
 
-    /// Sets all tensors. Names and shapes must equal those of [`tensors`](Network::tensors).
+    /// Sets all tensors. Names and shapes must equal the output of [`tensors`](Network::tensors).
     fn set_tensors(&mut self, tensors: &[NamedTensor]) {
         let by_name: BTreeMap<&str, &[f32]> = tensors
             .iter()

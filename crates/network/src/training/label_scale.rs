@@ -1,4 +1,4 @@
-//! Scaling of labels to one range, whatever their unit.
+//! Scaling of labels to one range, for any unit.
 
 use serde::{Deserialize, Serialize};
 

@@ -50,10 +50,10 @@ pub(crate) fn pack(root: &Path, names: &[String], path: &Path) -> io::Result<()>
 /// Unpacks the bundle at `path` into the empty folder `into`. Unpacks at most `most` bytes, and fewer if the packed file is small.
 ///
 /// # Errors
-/// [`BundleError::Damaged`] for the first entry that is refused: a link, a device, a name that leads out of the bundle or occurs twice; for too many
-/// files or bytes, and for a file that is not a `.tar.gz`.
+/// [`BundleError::Damaged`] for a refused entry: a link, a device, a repeated name, or a name outside the bundle. Also for too many files or bytes,
+/// and for a file that is not a `.tar.gz`.
 pub(crate) fn unpack(path: &Path, into: &Path, most: u64) -> Result<(), BundleError> {
-    // A pipe would be waited for if it was opened.
+    // Checks before opening: opening a pipe would block until it has a writer.
     let about = fs::metadata(path).map_err(BundleError::file(path))?;
     if !about.is_file() {
         let problem = "not a regular file, expected a folder or a .tar.gz";
@@ -125,7 +125,7 @@ impl From<BundleError> for Fault {
 fn unpack_all(mut archive: Archive<Capped>, into: &Path, most: u64) -> Result<(), Fault> {
     let mut names: Vec<String> = Vec::new();
     let mut total = 0_u64;
-    // Reads raw entries, so entries that carry long names are refused too.
+    // Reads raw entries, so that entries with long names are refused too.
     for entry in archive.entries()?.raw(true) {
         let mut entry = entry?;
         let name = String::from_utf8_lossy(&entry.path_bytes()).into_owned();
@@ -184,7 +184,7 @@ fn unpack_all(mut archive: Archive<Capped>, into: &Path, most: u64) -> Result<()
         }
     }
     check_case(names.iter())?;
-    // The checksum of the packed bytes follows their end. Other programs read files behind it.
+    // Rejects bytes after the packed data, because other programs would unpack files from them.
     if has_more(archive.into_inner())? {
         return Err(damaged(
             ".",
@@ -221,7 +221,7 @@ fn has_more(mut rest: impl Read) -> io::Result<bool> {
     }
 }
 
-/// True if a folder cannot be made because a file has its name.
+/// True if a folder cannot be created because a file has its name.
 fn is_taken(error: &io::Error) -> bool {
     let kind = error.kind();
     kind == io::ErrorKind::AlreadyExists || kind == io::ErrorKind::NotADirectory

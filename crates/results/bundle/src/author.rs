@@ -23,7 +23,7 @@ pub(crate) const MOST_NAME: usize = 200;
 pub struct Author {
     /// Name of the author.
     pub name: String,
-    /// Identifier of the person at orcid.org, with its check digit.
+    /// Identifier of the person at orcid.org, with its check digit; `None` if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub orcid: Option<String>,
 }
@@ -66,7 +66,7 @@ impl Author {
         is_name(&self.name) && self.orcid.as_deref().is_none_or(is_orcid)
     }
 
-    /// URL of the identifier.
+    /// URL of the identifier; `None` without an identifier.
     pub(crate) fn address(&self) -> Option<String> {
         let orcid = self.orcid.as_ref()?;
         Some(format!("https://orcid.org/{orcid}"))

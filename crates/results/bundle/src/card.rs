@@ -81,7 +81,7 @@ pub(crate) fn citation(manifest: &Manifest) -> String {
     });
     let mut authors: Vec<Value> = authors.collect();
     if authors.is_empty() {
-        // A name would be an author that nobody stated.
+        // An alias, because a name would state an author.
         authors.push(json!({"alias": "not stated"}));
     }
     let mut own = json!({

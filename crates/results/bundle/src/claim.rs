@@ -17,11 +17,11 @@ pub struct Claim {
     pub metric: String,
     /// Channel or plane: `Fz`, `Pxy`.
     pub channel: String,
-    /// Variant of the metric: `slope`.
+    /// Variant of the metric: `slope`; `None` for the metric itself.
     pub variant: Option<String>,
     /// Value, in `unit`.
     pub value: f64,
-    /// Both ends of the interval of 95 %, in `unit`.
+    /// Both ends of the interval of 95 %, in `unit`; `None` without an interval.
     pub ci95: Option<[f64; 2]>,
     /// Unit of value and interval.
     pub unit: Unit,
@@ -113,13 +113,13 @@ impl Claim {
         }
     }
 
-    /// Score of the metric and the channel of the claim.
+    /// Score of the metric and the channel of the claim; `None` if `scores` has no such score.
     pub(crate) fn score_in<'a>(&self, scores: &'a [Score]) -> Option<&'a Score> {
         let mut scores = scores.iter();
         scores.find(|score| score.metric == self.metric && score.channel == self.channel)
     }
 
-    /// True if unit, number of samples and definition equal those of `score`.
+    /// True if the claim has the unit, number of samples and definition of `score`.
     pub(crate) fn is_of(&self, score: &Score) -> bool {
         unit_of(score, self.variant.as_deref()) == Some(self.unit)
             && score.n == self.n
@@ -178,7 +178,7 @@ pub(crate) fn properties(claims: &[Claim]) -> Vec<Value> {
     properties.collect()
 }
 
-/// Unit of a score or of one of its variants.
+/// Unit of a score or of one of its variants; `None` for an unknown variant.
 fn unit_of(score: &Score, variant: Option<&str>) -> Option<Unit> {
     variant.map_or(Some(score.unit), |name| Some(score.variant(name)?.unit))
 }

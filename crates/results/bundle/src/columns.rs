@@ -64,7 +64,7 @@ impl TableColumns {
     }
 }
 
-/// Tables in order, without each table with which the number of columns would exceed [`MOST_COLUMNS`] in total.
+/// Tables in order. Leaves out each table that would raise the total number of columns above [`MOST_COLUMNS`].
 pub(crate) fn bounded(tables: impl Iterator<Item = TableColumns>) -> Vec<TableColumns> {
     let mut left = MOST_COLUMNS;
     let within = tables.filter_map(|table| {

@@ -39,7 +39,7 @@ pub struct ClaimDifference {
     pub study: usize,
     /// Metric, variant and channel: `mae of Fz`.
     pub claim: String,
-    /// Value of each bundle; `None` if it has no such claim.
+    /// Value of each bundle; `None` for a bundle without this claim.
     pub values: [Option<f64>; 2],
     /// Interval of each bundle.
     pub ci95: [Option<[f64; 2]>; 2],
@@ -62,7 +62,7 @@ pub struct DefinitionDifference {
 /// Compares the manifests of two bundles without verifying the bundles.
 ///
 /// # Errors
-/// [`BundleError::Damaged`] for a bundle whose manifest cannot be read; [`BundleError::File`] if it cannot be opened.
+/// [`BundleError::Damaged`] for a bundle whose manifest cannot be read; [`BundleError::File`] for a bundle that cannot be opened.
 pub fn compare(one: &Path, other: &Path) -> Result<BundleComparison, BundleError> {
     let (first, of_first) = open_manifest(one)?;
     let (second, of_second) = open_manifest(other)?;

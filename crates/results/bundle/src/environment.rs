@@ -27,7 +27,7 @@ pub(crate) struct Environment {
     pub(crate) arch: String,
     /// Instruction sets that the program can use on the machine, the fastest first.
     pub(crate) instruction_sets: Vec<String>,
-    /// Number of threads. No result depends on it.
+    /// Number of threads, which affects no result.
     pub(crate) threads: usize,
     /// Plugins behind the results, as the results name them.
     pub(crate) plugins: Vec<String>,
@@ -58,8 +58,7 @@ impl Environment {
     }
 }
 
-/// Instruction sets that the program can use on this machine, the fastest first. `TACEVA_ISA` excludes all sets that are faster than the set it
-/// names.
+/// Instruction sets that the program can use on this machine, the fastest first. `TACEVA_ISA` names a set and excludes all faster sets.
 fn instruction_sets() -> Vec<String> {
     let used = Isa::detect();
     let sets = Isa::available().into_iter();

@@ -20,7 +20,7 @@ pub(crate) struct HubEntry<'a> {
     pub(crate) value: f64,
     pub(crate) day: String,
     pub(crate) notes: String,
-    /// URL of the bundle.
+    /// URL of the bundle; `None` if not given.
     pub(crate) address: Option<&'a str>,
 }
 
@@ -50,7 +50,7 @@ fn entry(manifest: &Manifest, claim: &Claim) -> Value {
             _ => format!("study{}_{task}", claim.study),
         },
         value: claim.value,
-        // Every entry repeats it, so it is no longer than a day.
+        // Cuts the date to a day, because every entry repeats the date.
         day: manifest.created.chars().take(10).collect(),
         notes: notes.join(" "),
         address: None,

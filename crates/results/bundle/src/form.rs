@@ -115,17 +115,17 @@ pub(crate) fn form(
     let tables = TableFacts::of(source, manifest, jobs);
     damage.extend(samples(source, manifest, reports, &tables));
     let known = header::known(reports);
-    // A header keeps its name, whatever its role.
+    // Finds headers by role and by name, so that another role hides no header.
     let headers = manifest
         .files
         .iter()
         .filter(|file| file.role == HEADER_ROLE || is_header(&file.path));
     damage.extend(headers.filter_map(|file| dataset_header(source, &file.path, &known).err()));
-    // Another version may write these texts in other words. A digest that was not checked could be of any length, and forms repeat it.
+    // Only for undamaged bundles of this version: other versions may generate other texts, and unchecked digests may have any length.
     if damage.is_empty() && manifest.taceva == env!("CARGO_PKG_VERSION") {
         let mut restored = manifest.clone();
         for claim in &mut restored.claims {
-            // A claim that was edited in the manifest alone is found by its number.
+            // Restores numbers from the results, so that an edited claim is reported as a number and not as a text.
             *claim = claim.as_in(&reports[claim.study]);
         }
         for (name, expected) in texts::all(&restored, &tables.columns) {
@@ -162,7 +162,7 @@ fn studies(source: &Source, manifest: &Manifest, reports: &[EvaluationReport]) -
     let mut damage = Vec::new();
     let mut behind = BTreeSet::new();
     for (files, report) in manifest.studies.iter().zip(reports) {
-        // A state that counts twice halves intervals, and one file behind many studies is read as often.
+        // A state named twice would narrow intervals, and a file of many studies would be read many times.
         let mut named = files.names().chain(&files.frames);
         if let Some(name) = named.find(|name| !behind.insert(name.as_str())) {
             let rule = "a file belongs to one study, once";
@@ -217,7 +217,7 @@ fn origin(manifest: &Manifest, reports: &[EvaluationReport]) -> Option<Damage> {
     let (source, badge) = (source_of(reports), badge_of(reports));
     for (number, (files, report)) in manifest.studies.iter().zip(reports).enumerate() {
         let expected = &report.subject.source;
-        // The first bundles of this schema state the origin as a whole alone.
+        // The first bundles of this schema state one origin for all studies.
         if !files.source.is_empty() && files.source != *expected {
             let problem = format!(
                 "study {number} has the origin `{}`, expected `{expected}`",
@@ -238,7 +238,7 @@ fn origin(manifest: &Manifest, reports: &[EvaluationReport]) -> Option<Damage> {
     })
 }
 
-/// Fault of authors, organization or licence, which generated files repeat.
+/// Fault of authors, organization or licence, which generated files repeat; `None` without a fault.
 pub(crate) fn owners(manifest: &Manifest) -> Option<Damage> {
     let authors = &manifest.authors;
     let organization = manifest.organization.as_ref();
@@ -305,7 +305,7 @@ pub(crate) fn environment(source: &Source) -> Result<Environment, Damage> {
     }
 }
 
-/// Faults of the digest of samples.
+/// First fault of the digest of samples; `None` without a fault.
 fn samples(
     source: &Source,
     manifest: &Manifest,

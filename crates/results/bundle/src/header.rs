@@ -15,10 +15,10 @@ pub(crate) fn known(reports: &[EvaluationReport]) -> Vec<&str> {
     known
 }
 
-/// Digest that the header `text` states, with tasks if the dataset has tasks; empty if it states none.
+/// Digest in the header `text`, including the tasks if the dataset has tasks; empty without a digest.
 ///
 /// # Errors
-/// The reason why it is not TOML.
+/// The reason why the text is not TOML.
 pub(crate) fn digest(text: &str) -> Result<String, String> {
     let table: toml::Table =
         toml::from_str(text).map_err(|error| shown(error.message()).to_string())?;
@@ -27,7 +27,7 @@ pub(crate) fn digest(text: &str) -> Result<String, String> {
     Ok(digest.unwrap_or_default().to_owned())
 }
 
-/// Fault of a header whose dataset is not in `known`.
+/// Fault of a header whose dataset is not in `known`; `None` for a known dataset.
 pub(crate) fn fault(digest: &str, known: &[&str]) -> Option<String> {
     (!known.contains(&digest)).then(|| {
         format!(

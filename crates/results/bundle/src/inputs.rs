@@ -220,7 +220,7 @@ fn check_frames(path: &Path, studies: &[StudyInputs]) -> Result<(), BundleError>
         for file in &recording.files {
             let file = recording.folder.join(file);
             let about = fs::metadata(&file).map_err(BundleError::file(&file))?;
-            // A pipe would be waited for.
+            // Opening a pipe would block until it has a writer.
             if !about.is_file() {
                 return Err(BundleError::input(&file, "expected a regular file"));
             }
@@ -241,7 +241,7 @@ fn check_frames(path: &Path, studies: &[StudyInputs]) -> Result<(), BundleError>
 /// Rejects swapped tables of truth and prediction.
 fn check_not_swapped(tables: &ScoredTables, report: &EvaluationReport) -> Result<(), BundleError> {
     let paths = [&tables.truth, &tables.prediction];
-    // A pipe would be waited for.
+    // Opening a pipe would block until it has a writer.
     if !paths.iter().all(|path| path.is_file()) {
         return Ok(());
     }

@@ -20,7 +20,7 @@ pub(crate) const EVAL_RESULTS: &str = ".eval_results/taceva.yaml";
 pub(crate) const CROISSANT: &str = "croissant.json";
 /// File with the description as an RO-Crate.
 pub(crate) const CRATE: &str = "ro-crate-metadata.json";
-/// Files that the manifest generates.
+/// Files generated from the manifest.
 pub(crate) const GENERATED: [&str; 6] = [CARD, CITATION, LICENCE, EVAL_RESULTS, CROISSANT, CRATE];
 /// The header of a dataset.
 pub(crate) const HEADER: &str = "dataset.toml";

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum Level {
-    /// The files are those of the manifest, byte for byte.
+    /// The files equal the entries of the manifest, byte for byte.
     Files,
     /// Schemas, seals and generated files are valid, and the results contain the claims.
     Form,

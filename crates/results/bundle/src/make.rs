@@ -219,7 +219,7 @@ fn set_levels(
     Ok(())
 }
 
-/// `problem` with the paths of the caller in place of their copies below `root`.
+/// `problem` with the caller's paths in place of the paths of the copies below `root`.
 fn as_given(problem: &str, manifest: &Manifest, inputs: &Inputs, root: &Path) -> String {
     let mut problem = problem.to_owned();
     for (files, study) in manifest.studies.iter().zip(&inputs.studies) {
@@ -281,7 +281,7 @@ fn notes(inputs: &Inputs, request: &BundleRequest, written: &Writer<'_>) -> Vec<
         if !kept.contains(&file.role.as_str()) || file.size > MOST_TEXT {
             continue;
         }
-        // A table of Parquet is not text.
+        // A Parquet table is not text.
         let text = fs::read_to_string(written.root.join(&file.path)).unwrap_or_default();
         let (_, count) = redacted(&text, &request.redactions);
         if count > 0 {

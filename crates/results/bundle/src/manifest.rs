@@ -36,7 +36,7 @@ pub struct Manifest {
     pub licence: Option<String>,
     /// Authors; empty for a draft.
     pub authors: Vec<Author>,
-    /// Organization of the authors, which publishes the bundle.
+    /// Organization of the authors, which publishes the bundle; `None` if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub organization: Option<Organization>,
     /// True if author or licence is still missing.
@@ -108,13 +108,13 @@ pub struct StudyFiles {
     /// Paths of the states; several states are merged.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub states: Vec<String>,
-    /// Scored tables of truth and predictions.
+    /// Scored tables of truth and predictions; `None` if not included.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tables: Option<TableFiles>,
-    /// The table of samples that an evaluation wrote.
+    /// The table of samples that an evaluation wrote; `None` if not included.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub samples: Option<String>,
-    /// The model file that made the predictions.
+    /// The model file that made the predictions; `None` if not included.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub model: Option<String>,
     /// Folders of the recordings with the pictures behind the predictions.
@@ -123,7 +123,7 @@ pub struct StudyFiles {
 }
 
 impl StudyFiles {
-    /// Names of all files, except those of recordings.
+    /// Names of all files, except the files of recordings.
     pub(crate) fn names(&self) -> impl Iterator<Item = &String> {
         let inputs = self.states.iter().chain(self.table_names());
         inputs.chain(&self.model)
@@ -136,7 +136,7 @@ impl StudyFiles {
         tables.chain(&self.samples)
     }
 
-    /// Table whose rows are the samples of the study.
+    /// Table whose rows are the samples of the study; `None` without a table.
     pub(crate) fn sample_table(&self) -> Option<&str> {
         let truth = self.tables.as_ref().map(|tables| tables.truth.as_str());
         truth.or(self.samples.as_deref())
@@ -151,7 +151,7 @@ pub struct TableFiles {
     pub truth: String,
     /// The predictions.
     pub prediction: String,
-    /// Name of the key column that the caller chose.
+    /// Name of the key column that the caller chose; `None` to find the column by its name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub key: Option<String>,
 }
@@ -184,7 +184,7 @@ pub(crate) struct SealedManifest {
 }
 
 impl Manifest {
-    /// Files that the manifest does not generate.
+    /// Files that are not generated from the manifest.
     pub(crate) fn given_files(&self) -> impl Iterator<Item = &BundledFile> {
         let files = self.files.iter();
         files.filter(|file| !GENERATED.contains(&file.path.as_str()))
@@ -242,7 +242,7 @@ impl Manifest {
         withheld.any(|own| ![MODEL_ROLE, FRAMES_ROLE].contains(&own.role.as_str()))
     }
 
-    /// Digest that the manifest states of the file `name`.
+    /// Digest of the file `name` in the manifest; `None` for an unlisted file.
     pub(crate) fn digest(&self, name: &str) -> Option<&str> {
         let file = self.files.iter().find(|file| file.path == name)?;
         Some(&file.sha256)
@@ -251,7 +251,7 @@ impl Manifest {
     /// The sealed text.
     ///
     /// # Errors
-    /// [`BundleError::Results`] if it cannot be written as JSON.
+    /// [`BundleError::Results`] if the manifest cannot be written as JSON.
     pub(crate) fn sealed(&self) -> Result<String, BundleError> {
         let sealed = taceva_results::sealed(self).map_err(|source| BundleError::Results {
             path: MANIFEST.into(),

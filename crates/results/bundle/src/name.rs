@@ -32,7 +32,7 @@ pub(crate) fn fault(name: &str) -> Option<String> {
                 .to_owned(),
         );
     }
-    // Windows drops such a dot, so two names would be one.
+    // Windows drops a final dot, so that two names would become equal.
     if parts.iter().any(|part| part.ends_with('.')) {
         return Some(
             "a folder or file name that ends in a dot, expected another ending".to_owned(),

@@ -15,7 +15,7 @@ use crate::layout::{MOST_MODEL, MOST_STATES, MOST_TABLE, MOST_TEXT};
 use crate::manifest::StudyFiles;
 use crate::source::Source;
 
-/// Reason why something cannot be computed again.
+/// Reason why a result cannot be computed again.
 #[derive(Clone, Debug)]
 pub(crate) struct Stop {
     pub(crate) reason: String,
@@ -27,7 +27,7 @@ pub(crate) struct Stop {
 #[derive(Clone, Debug)]
 pub(crate) struct TableScores {
     pub(crate) scores: Vec<Score>,
-    /// True if the sums differ from those of the state although they must be equal.
+    /// True if the sums differ from the sums of the state, although they must be equal.
     pub(crate) has_other_sums: bool,
     /// Metrics that cannot be computed from the tables.
     pub(crate) left_out: Vec<Skip>,
@@ -59,7 +59,7 @@ pub(crate) struct RecomputationSettings<'a> {
     pub(crate) reads_tables: bool,
     /// True if the maker of the bundle left tables out.
     pub(crate) are_tables_withheld: bool,
-    /// Recordings on which models predict again, or those in the bundle if empty; `None` if models do not predict.
+    /// Recordings on which models predict again; empty for the recordings in the bundle, `None` without predictions.
     pub(crate) datasets: Option<&'a [PathBuf]>,
     /// True if models are fitted again.
     pub(crate) fits: bool,
@@ -178,7 +178,7 @@ fn of_states(states: &[ReadState]) -> Result<EvaluationReport, Stop> {
         let reason = "no state: evaluate or score again with --state-out, and give the state to `taceva bundle --state`";
         return Err(Stop::absent(reason));
     }
-    // Shards merge; the states of the phases of a run have plans of their own.
+    // Merges shards. The states of a run's phases have different plans and stay separate.
     let report = match merge_read(states) {
         Ok((report, _)) => report,
         Err(error) if states.len() == 1 => return Err(Stop::failed(error)),
@@ -187,7 +187,7 @@ fn of_states(states: &[ReadState]) -> Result<EvaluationReport, Stop> {
     as_read(&report)
 }
 
-/// Scores of the tables in `files`: with the plan of the only state, or with the states of the phases of a run.
+/// Scores of the tables in `files`, by the plan of the only state, or by the states of the phases of a run.
 fn of_tables(
     source: &Source,
     files: &StudyFiles,
@@ -225,7 +225,7 @@ fn of_tables(
     let recount = recount.map_err(Stop::failed)?;
     Ok(TableScores {
         scores: as_read(&recount.report)?.scores,
-        // The samples of an evaluation lack what metrics of the truth alone read.
+        // The samples of an evaluation lack columns that metrics of the truth alone use, so their sums may differ.
         has_other_sums: (files.tables.is_some() || is_run) && !recount.has_equal_sums,
         left_out: recount.left_out,
     })

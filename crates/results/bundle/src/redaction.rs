@@ -67,7 +67,7 @@ pub fn redacted(text: &str, what: &[Redaction]) -> (String, u64) {
                 '\n' => (quote, key) = (None, String::new()),
                 '[' if quote.is_none() => lists += 1,
                 ']' if quote.is_none() => lists = lists.saturating_sub(1),
-                // Every item of a list has its key.
+                // All items of a list have the key of the list.
                 ',' if quote.is_none() && lists > 0 => {}
                 ',' | ';' | '{' => key.clear(),
                 _ => {}
@@ -80,7 +80,7 @@ pub fn redacted(text: &str, what: &[Redaction]) -> (String, u64) {
         let word = &rest[..end.unwrap_or(rest.len())];
         let after = rest[word.len()..].trim_start_matches(['"', '\'']);
         if after.trim_start().starts_with('=') {
-            // The key of a driver's argument stands behind the driver's name.
+            // The key of a driver's argument follows the driver's name.
             key = word.rsplit(':').next().unwrap_or(word).to_lowercase();
             written.push_str(word);
             rest = &rest[word.len()..];
@@ -102,7 +102,7 @@ pub fn redacted(text: &str, what: &[Redaction]) -> (String, u64) {
     (written, count)
 }
 
-/// Start of the absolute path in a word: at its beginning, or after a character such as `:` or `@`.
+/// Start of the absolute path in a word: at its beginning, or after a character such as `:` or `@`; `None` without a path.
 fn path_start(word: &str) -> Option<usize> {
     let marks = word.char_indices();
     let marks = marks.filter(|(_, own)| ":`<>|@".contains(*own));
@@ -110,7 +110,7 @@ fn path_start(word: &str) -> Option<usize> {
     if is_path(word) {
         return Some(0);
     }
-    // `//` behind a mark is of an address.
+    // `//` after a mark belongs to an address.
     behind.find(|at| is_path(&word[*at..]) && !word[*at..].starts_with("//"))
 }
 
@@ -148,7 +148,7 @@ fn is_host(key: &str, word: &str) -> bool {
 /// True if a part of the word is an IPv4, IPv6 or MAC address.
 fn is_address(word: &str) -> bool {
     let of_four = |part: &str| part.parse::<std::net::Ipv4Addr>().is_ok();
-    // The interface stands behind `%`.
+    // The network interface follows `%`.
     let six = word.split('%').next().unwrap_or(word);
     let is_six = six.matches(':').count() > 1 && six.parse::<std::net::Ipv6Addr>().is_ok();
     let octets: Vec<&str> = word.split([':', '-']).collect();

@@ -19,13 +19,13 @@ pub struct BundleRequest {
     pub name: Option<String>,
     /// Authors; empty for a draft.
     pub authors: Vec<Author>,
-    /// Organization of the authors, which publishes the bundle.
+    /// Organization of the authors, which publishes the bundle; `None` if not given.
     pub organization: Option<Organization>,
     /// SPDX identifier of the licence; `None` for a draft.
     pub licence: Option<String>,
     /// States of the results, for results of one study.
     pub states: Vec<PathBuf>,
-    /// Scored tables of truth and predictions, for results of one study.
+    /// Scored tables of truth and predictions, for results of one study; `None` without tables.
     pub tables: Option<ScoredTables>,
     /// Recordings whose headers are added, with their pictures if `adds_frames` is true. Not needed for a run.
     pub datasets: Vec<PathBuf>,

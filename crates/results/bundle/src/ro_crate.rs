@@ -51,7 +51,7 @@ pub(crate) fn text(manifest: &Manifest) -> String {
     own.text(before, after)
 }
 
-/// Text of `ro-crate-metadata.json` of a folder with the files of `manifest`, this description and these licences. No run made it.
+/// Text of `ro-crate-metadata.json` of a folder with the files of `manifest`, this description and these licences, without a run.
 pub(crate) fn of_folder(manifest: &Manifest, description: &str, licences: &[String]) -> String {
     let mut own = Entities::of(manifest, description, licences);
     let mut after = std::mem::take(&mut own.authors);

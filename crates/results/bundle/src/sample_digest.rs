@@ -75,7 +75,7 @@ impl StudySamples {
     /// Samples in the table at `path`, with its numeric columns as labels.
     ///
     /// # Errors
-    /// [`BundleError::Evaluate`] if it is not a table.
+    /// [`BundleError::Evaluate`] if the file is not a table.
     pub(crate) fn of_table(path: &Path, jobs: NonZeroUsize) -> Result<StudySamples, BundleError> {
         let (table, _) = read_table(path, jobs)?;
         Ok(StudySamples::of_read(&table))
@@ -113,7 +113,7 @@ impl StudySamples {
                 )
             });
             let labels: Vec<(&str, Option<String>)> = labels.collect();
-            // A list of JSON, so that no id is read as labels or as several samples.
+            // A JSON list keeps ids, frames and labels apart.
             let line = serde_json::json!([id, frame, labels]).to_string();
             lines.push(line);
         }

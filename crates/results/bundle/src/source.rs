@@ -21,7 +21,7 @@ const UNPACKED: &str = ".taceva-unpacked-bundle-";
 pub(crate) struct Source {
     root: PathBuf,
     files: BTreeMap<String, u64>,
-    /// Temporary folder of an unpacked bundle, removed on drop.
+    /// Temporary folder of an unpacked bundle, removed on drop; `None` for a bundle in a folder.
     unpacked: Option<TemporaryFolder>,
 }
 
@@ -29,7 +29,7 @@ impl Source {
     /// Opens the bundle at `path`, whose files have at most `most` bytes together.
     ///
     /// # Errors
-    /// [`BundleError::Damaged`] for links, special files, invalid names, and too many files or bytes; [`BundleError::File`] if it cannot be read.
+    /// [`BundleError::Damaged`] for links, special files, invalid names, and too many files or bytes; [`BundleError::File`] for an unreadable file.
     pub(crate) fn open(path: &Path, most: u64) -> Result<Source, BundleError> {
         let about = fs::metadata(path).map_err(BundleError::file(path))?;
         if about.is_dir() {
@@ -81,7 +81,7 @@ impl Source {
                     };
                     return Err(refused("every entry is a regular file", what.to_owned()));
                 }
-                // Folders that were listed count too.
+                // Listed folders count too.
                 count += 1;
                 check_amount(count, total, most)?;
             }
@@ -115,7 +115,7 @@ impl Source {
     /// Digest of the file `name`, as `sha256:` and digits.
     ///
     /// # Errors
-    /// [`BundleError::File`] if it cannot be read.
+    /// [`BundleError::File`] if the file cannot be read.
     pub(crate) fn digest(&self, name: &str) -> Result<String, BundleError> {
         digest_of(&self.path(name))
     }
@@ -123,7 +123,7 @@ impl Source {
     /// Text of the file `name`, of at most `most` bytes.
     ///
     /// # Errors
-    /// [`Damage`] if it is missing, too long or no text.
+    /// [`Damage`] if the file is missing, too long or not text.
     pub(crate) fn text(&self, name: &str, most: u64) -> Result<String, Damage> {
         let size = self.size(name, most)?;
         let read = File::open(self.path(name)).and_then(|file| {
@@ -134,10 +134,10 @@ impl Source {
         read.map_err(|error| Damage::new(name, "a text is UTF-8", error.to_string()))
     }
 
-    /// Size of the file `name`, if that is at most `most` bytes.
+    /// Size of the file `name`, at most `most` bytes.
     ///
     /// # Errors
-    /// [`Damage`] if it is missing or too long.
+    /// [`Damage`] if the file is missing or too long.
     pub(crate) fn size(&self, name: &str, most: u64) -> Result<u64, Damage> {
         match self.files.get(name) {
             None => Err(Damage::new(name, "every file is there", "it is missing")),
@@ -154,7 +154,7 @@ impl Source {
 /// Digest of the file at `path`, as `sha256:` and digits.
 ///
 /// # Errors
-/// [`BundleError::File`] if it cannot be read.
+/// [`BundleError::File`] if the file cannot be read.
 pub(crate) fn digest_of(path: &Path) -> Result<String, BundleError> {
     let failed = BundleError::file(path);
     let digest = || -> io::Result<String> {

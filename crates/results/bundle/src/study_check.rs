@@ -241,7 +241,7 @@ impl StudyCheck<'_> {
                     && claim.metric == score.metric
                     && claim.channel == score.channel
             };
-            // What a claim says is not said twice.
+            // Skips scores with a reported claim, so that no difference is reported twice.
             let is_said = |claim: &ClaimCheck| claim.verdict != Verdict::Equal;
             if claims.iter().filter(is_own).any(is_said) {
                 continue;
@@ -287,7 +287,7 @@ impl StudyCheck<'_> {
 
 impl ClaimCheck {
     fn ended(mut self, verdict: Verdict, reason: String) -> ClaimCheck {
-        // A claim that is not in the results differs, whatever else is found.
+        // A claim that is missing in the results differs, regardless of other findings.
         if self.verdict != Verdict::Differs || verdict == Verdict::Differs {
             self.verdict = verdict;
             self.reason = Some(reason);

@@ -12,7 +12,7 @@ use crate::source::Source;
 
 /// Samples and columns of the tables in a bundle.
 pub(crate) struct TableFacts<'a> {
-    /// Samples by the name of their table, or the reason why it cannot be read.
+    /// Samples by the name of their table, or the reason why the table cannot be read.
     samples: BTreeMap<&'a str, Result<StudySamples, String>>,
     /// Tables that readers of Croissant can load.
     pub(crate) columns: Vec<TableColumns>,
@@ -54,7 +54,7 @@ impl<'a> TableFacts<'a> {
     /// Samples in the table called `name`.
     ///
     /// # Errors
-    /// The reason why it cannot be read.
+    /// The reason why the table cannot be read.
     pub(crate) fn samples(&self, name: &str) -> Result<&StudySamples, &str> {
         match self.samples.get(name) {
             Some(Ok(samples)) => Ok(samples),

@@ -5,7 +5,7 @@ use crate::layout::{CARD, CITATION, CRATE, CROISSANT, EVAL_RESULTS, LICENCE};
 use crate::manifest::Manifest;
 use crate::{card, croissant, eval_results, ro_crate};
 
-/// Generated texts by file name; `tables` are the columns of the tables that the bundle holds.
+/// Generated texts by file name; `tables` are the columns of the bundle's tables.
 pub(crate) fn all(manifest: &Manifest, tables: &[TableColumns]) -> [(&'static str, String); 6] {
     [
         (CITATION, card::citation(manifest)),

@@ -31,7 +31,7 @@ pub struct Verification {
     pub summary: Summary,
     /// Remarks for readers.
     pub remarks: Vec<String>,
-    /// Requested level; `None` for the deepest that the files allow.
+    /// Requested level; `None` for the deepest level that the files allow.
     #[serde(skip)]
     pub(crate) asked: Option<Level>,
 }
@@ -66,7 +66,7 @@ pub struct LevelCheck {
     pub level: Level,
     /// True if every file and claim reached the level.
     pub reached: bool,
-    /// Reason why the level was not reached.
+    /// Reason why the level was not reached; `None` if reached.
     pub reason: Option<String>,
 }
 
@@ -109,18 +109,18 @@ pub struct ClaimCheck {
     pub metric: String,
     /// Channel or plane.
     pub channel: String,
-    /// Variant of the metric.
+    /// Variant of the metric; `None` for the metric itself.
     pub variant: Option<String>,
     /// Number in the manifest.
     #[serde(rename = "printed")]
     pub stated: f64,
-    /// Number that was computed again.
+    /// Number that was computed again; `None` if no number was computed.
     pub recomputed: Option<f64>,
     /// Deepest level that the claim reached.
     pub level: Level,
     /// Verdict on the claim.
     pub verdict: Verdict,
-    /// Reason, if the verdict is not `equal`, or why no deeper level was reached.
+    /// Reason for a verdict other than `equal`, or for a missing deeper level.
     pub reason: Option<String>,
     /// True if the bundle lacks the files for a deeper level.
     #[serde(skip)]

@@ -23,13 +23,13 @@ use crate::verification::{BundleFacts, ClaimCheck, OtherCheck, Verdict, Verifica
 pub struct VerifyRequest {
     /// The bundle: a folder, or a `.tar.gz`.
     pub path: PathBuf,
-    /// Level to reach; `None` for the deepest that the files allow.
+    /// Level to reach; `None` for the deepest level that the files allow.
     pub level: Option<Level>,
     /// Greatest difference between a claim and its recomputed number for the verdict `within`, in the unit of each score.
     pub tolerance: f64,
     /// Maximum size of all files together, bytes.
     pub most: u64,
-    /// Recordings behind the results. The models of the bundle predict them again, as [`Level::Model`] and [`Level::Fit`] need. Without any,
+    /// Recordings behind the results. The models of the bundle predict them again, as [`Level::Model`] and [`Level::Fit`] require. If empty,
     /// [`Level::Model`] reads the pictures in the bundle.
     pub datasets: Vec<PathBuf>,
     /// Number of threads.
@@ -62,7 +62,7 @@ impl VerifyRequest {
 /// Verifies a bundle. Executes no content of the bundle.
 ///
 /// # Errors
-/// [`BundleError::File`] if it cannot be read. A damaged bundle is not an error: its damage is listed.
+/// [`BundleError::File`] if the bundle cannot be read. Damage is listed in the result instead.
 pub fn verify(request: &VerifyRequest) -> Result<Verification, BundleError> {
     verify_with(request, &SilentProgress)
 }
@@ -131,7 +131,7 @@ pub fn verify_with(
     Ok(found.summed())
 }
 
-/// Claims and other numbers, compared with what was computed again.
+/// Claims and other numbers, compared with recomputed numbers.
 pub(crate) struct Checked {
     pub(crate) claims: Vec<ClaimCheck>,
     pub(crate) others: Vec<OtherCheck>,
@@ -288,7 +288,7 @@ fn unchecked(manifest: &Manifest) -> Vec<String> {
     remarks
 }
 
-/// First file behind a study that is too long to read.
+/// Damage of the first file behind a study that is too long to read; `None` if there is no such file.
 fn too_long(source: &Source, manifest: &Manifest) -> Option<Damage> {
     let names = manifest.studies.iter().flat_map(StudyFiles::names);
     names
@@ -313,7 +313,7 @@ fn facts(sealed: &SealedManifest) -> BundleFacts {
 /// Facts of the bundle at `path`, and its manifest. Its files are not read.
 ///
 /// # Errors
-/// [`BundleError::Damaged`] if it is not a bundle of this version; [`BundleError::File`] if it cannot be read.
+/// [`BundleError::Damaged`] for a path that is not a bundle of this version; [`BundleError::File`] for an unreadable manifest.
 pub(crate) fn open_manifest(path: &Path) -> Result<(BundleFacts, Manifest), BundleError> {
     let source = Source::open(path, MOST_BYTES)?;
     let text = source

@@ -89,7 +89,7 @@ fn route(request: &Request, site: &Site) -> Result<Reply, Status> {
         };
     }
     if path == "/favicon.ico" {
-        // Browsers request it on their own, without the token.
+        // Browsers request the icon on their own, without the token.
         return Ok(Reply::Bare(Status::NoContent));
     }
     site.access.check_token(request)?;
@@ -97,7 +97,7 @@ fn route(request: &Request, site: &Site) -> Result<Reply, Status> {
         ("/frames", "GET") => Ok(Reply::Frames(Viewer::enter(&site.shared)?)),
         ("/events", "GET") => Ok(Reply::Events(Viewer::enter(&site.shared)?)),
         ("/stop", "POST") => {
-            // First of all, because the arm must stop.
+            // The first action, because the robot must stop.
             (site.on_stop)();
             site.shared.stop();
             Ok(Reply::Bare(Status::NoContent))

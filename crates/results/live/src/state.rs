@@ -101,7 +101,7 @@ pub(crate) struct State {
     pub(crate) title: String,
     /// Current stage, in words.
     pub(crate) stage: String,
-    /// Normal force and shear, N.
+    /// Normal force and shear, N; `None` before the first reading.
     #[serde(rename = "Fz_N")]
     pub(crate) normal_n: Option<f64>,
     #[serde(rename = "Fxy_N")]
@@ -110,7 +110,7 @@ pub(crate) struct State {
     #[serde(rename = "Pz_mm")]
     pub(crate) depth_mm: Option<f64>,
     pub(crate) limits: Limits,
-    /// Name of the model behind the predictions over pictures.
+    /// Name of the model behind the predictions over pictures; `None` if not given.
     pub(crate) predicted_by: Option<String>,
     pub(crate) predicted: Option<PredictedFrames>,
     /// Frames given to the page, and their rate, 1/s.
@@ -120,7 +120,7 @@ pub(crate) struct State {
     pub(crate) damaged: u64,
     /// True if the count of dropped frames is complete.
     pub(crate) numbered: bool,
-    /// Share of values at full scale in the newest frame.
+    /// Share of values at full scale in the newest frame; `None` before the first measurement.
     pub(crate) saturated: Option<f64>,
     /// Sharpness of the newest frame; see [`Sight`](crate::sight::Sight).
     pub(crate) sharpness: Option<f64>,

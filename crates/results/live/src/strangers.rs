@@ -34,7 +34,7 @@ impl Strangers {
         if inside.waiting.len() > STRANGERS_MAX
             && let Some((_, oldest)) = inside.waiting.pop_front()
         {
-            // Its thread reads the end of the connection, and ends. An error means that the client has already gone.
+            // The connection's thread then reads the end of the connection, and ends. An error means that the client has already gone.
             let _ = oldest.shutdown(Shutdown::Both);
         }
         drop(inside);

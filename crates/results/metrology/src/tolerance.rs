@@ -2,7 +2,7 @@
 //!
 //! ```
 //! use taceva_metrology::tolerance::{least_n_one_sided, least_n_two_sided, two_sided_factor};
-//! // 95 % of the values with confidence 95 %, from 20 of them: mean ± 2.76 standard deviations.
+//! // From 20 values, 95 % of all values with confidence 95 %: mean ± 2.76 standard deviations.
 //! let k = two_sided_factor(20.0, 19.0, 0.95, 0.95).ok_or("valid")?;
 //! assert!((k - 2.760_346).abs() < 1e-6);
 //! // From the least to the greatest value, whatever the distribution.
@@ -33,7 +33,7 @@ pub fn least_n_two_sided(share: f64, confidence: f64) -> Option<u64> {
     (is_share(share) && is_share(confidence)).then(|| least_n(2, |n| held(n) >= confidence))
 }
 
-/// Least number of values whose maximum exceeds `share` of any continuous distribution with `confidence`.
+/// Least number of values whose maximum exceeds `share` of any continuous distribution with `confidence`; `None` unless both are in 0..1.
 #[must_use]
 pub fn least_n_one_sided(share: f64, confidence: f64) -> Option<u64> {
     let held = |n: f64| 1.0 - exponential(n * logarithm(share));

@@ -26,7 +26,7 @@ pub struct BudgetReport {
     pub origins: Vec<String>,
     /// Digest of the budget file.
     pub digest: String,
-    /// Maximum allowed expanded uncertainty, in the unit of the measurand.
+    /// Maximum allowed expanded uncertainty, in the unit of the measurand; `None` if not given.
     pub most: Option<f64>,
 }
 
@@ -131,7 +131,7 @@ impl BudgetReport {
         notes
     }
 
-    /// Verdict against the maximum allowed expanded uncertainty.
+    /// Verdict against the maximum allowed expanded uncertainty; `None` without this maximum.
     fn verdict(&self) -> Option<String> {
         let size = |of: &Budget| of.half_width().unwrap_or(f64::INFINITY);
         let budgets = self.budgets.iter();

@@ -48,7 +48,7 @@ pub fn all() -> Vec<Sensor> {
     sensors
 }
 
-/// Sensor called `name`, or the only sensor with that alias; ignores case.
+/// Sensor called `name`, or the only sensor with that alias; ignores case. `None` if there is no such sensor.
 pub fn find(name: &str) -> Option<Sensor> {
     named(name).ok()
 }

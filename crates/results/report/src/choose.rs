@@ -37,7 +37,7 @@ pub struct Choice {
     pub barred: Vec<Dropped>,
     /// Sensors that meet the hard needs but have no rank, because a number for a ranking need is unknown.
     pub unplaced: Vec<Dropped>,
-    /// Sensors that meet the hard needs but have no rank, because their samples, test parts, definitions or faults differ from those of other sensors.
+    /// Sensors that meet the hard needs but have no rank, because samples, test parts, definitions or faults differ between sensors.
     pub apart: Vec<Dropped>,
     /// Numbers of the sensors without a rank, in the order of the sensors.
     pub others: Vec<Candidate>,

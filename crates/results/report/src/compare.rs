@@ -44,7 +44,7 @@ pub struct CompareRequest {
     pub seed: u64,
 }
 
-/// Results of the tests of each common score of each pair of studies, ordered by metric.
+/// Tests of every common score between every pair of studies, ordered by metric.
 #[derive(Clone, Debug)]
 pub struct Comparison {
     /// Names of the studies, in their order.
@@ -78,11 +78,11 @@ pub struct Answer {
     pub sides: Sides<usize>,
     /// Verdict by Holm's procedure over all pairs and channels of the metric. A demonstration has no better side.
     pub verdict: Verdict,
-    /// Difference and interval of the verdict, with the raw and the adjusted p value.
+    /// Difference and interval of the verdict, with the raw and the adjusted p value; `None` if there is no verdict.
     pub difference: Option<Difference>,
     /// Reason why there is no verdict; `None` if there is a verdict.
     pub reason: Option<String>,
-    /// Reason why the number of groups is too small to show any difference.
+    /// Reason why the number of groups is too small to show any difference; `None` if the number is large enough.
     pub out_of_reach: Option<String>,
     /// True if the models were trained at too few places for a verdict on sensors.
     pub is_demonstration: bool,
@@ -155,7 +155,7 @@ impl Answer {
         drawn.map(|(_, at)| names[at].as_str()).collect()
     }
 
-    /// Position of the significantly better study.
+    /// Position of the significantly better study; `None` if no study is significantly better.
     pub fn better(&self) -> Option<usize> {
         match self.verdict.better()? {
             Side::A => Some(self.sides.a),
@@ -171,7 +171,7 @@ struct Pair<'a> {
     difference: Result<Difference, String>,
     /// Reason why predictions of the same truth were not compared in pairs.
     unpaired: Option<String>,
-    /// Reason why the number of groups is too small to show any difference.
+    /// Reason why the number of groups is too small to show any difference; `None` if the number is large enough.
     out_of_reach: Option<String>,
 }
 

@@ -137,7 +137,7 @@ impl FaultResult {
         Some((of.value?, of.ci95))
     }
 
-    /// Faults with errors. A fault that leaves rows out has none, because it changes times alone.
+    /// Faults with errors. A fault that leaves rows out has no errors, because it changes only times.
     pub(crate) fn scored(&self) -> impl Iterator<Item = &FaultScores> {
         let faults = self.faults.iter();
         faults.filter(|fault| !fault.breaks_at.is_empty())
@@ -154,7 +154,7 @@ impl FaultResult {
         (count > 0.0).then(|| ends.iter().sum::<f64>() / count)
     }
 
-    /// Standing of the numbers of a channel. Without skill, faults cannot add to its error, so that the numbers mean nothing.
+    /// Standing of the numbers of a channel. Without skill, faults cannot add to the error of the channel, so the numbers have no meaning.
     pub(crate) fn standing(&self, channel: &str) -> Standing {
         let skill = self.clean.get(channel).map(|of| of.skill);
         match skill.map(|skill| (skill.value, skill.ci95)) {
@@ -196,7 +196,7 @@ fn is_schema(schema: &str) -> bool {
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
-/// Names of planes in `of`, and of channels that are not an axis of one of these planes.
+/// Names of planes in `of`, and names of channels outside these planes.
 ///
 /// ```
 /// use std::collections::BTreeMap;

@@ -22,9 +22,9 @@ pub(crate) struct Light {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Scene {
     pub(crate) name: String,
-    /// Ratio of brightness to the reference light.
+    /// Ratio of brightness to the reference light; `None` if unknown.
     pub(crate) light: Option<f64>,
-    /// Ratio of the mean absolute error to the error in reference light.
+    /// Ratio of the mean absolute error to the error in reference light; `None` if unknown.
     pub(crate) error: Option<f64>,
 }
 

@@ -20,7 +20,7 @@ pub struct FormattedValue {
     pub value: String,
     /// Both formatted ends of the interval; `None` without an interval.
     pub interval: Option<[String; 2]>,
-    /// Reason why the value or the interval is absent.
+    /// Reason why the value or the interval is absent; `None` if no reason is known.
     pub reason: Option<String>,
 }
 

@@ -65,7 +65,7 @@ fn in_order(studies: &[Study]) -> Vec<Study> {
 }
 
 impl PaperForm {
-    /// All tables, including those of figures, and all contradictions as one LaTeX text. Each table fits a page of two columns.
+    /// All tables, including the tables of figures, and all contradictions as one LaTeX text. Each table fits a page of two columns.
     pub fn latex(&self) -> String {
         let tables = self
             .tables

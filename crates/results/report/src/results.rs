@@ -76,11 +76,11 @@ pub struct Study {
 /// Model, samples and presses behind a result.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Made {
-    /// Name of the model: `ridge`.
+    /// Name of the model: `ridge`; `None` without a model.
     pub model: Option<String>,
     /// Settings of the model by name, including settings that the fit chose.
     pub settings: Vec<(String, String)>,
-    /// Setting that the fit chose, and the criterion: `strength on the validation part`.
+    /// Setting that the fit chose, and the criterion: `strength on the validation part`; `None` if no setting was chosen.
     pub chosen_by: Option<String>,
     /// Number of samples by part of the split: `train`, `validation`, `test`.
     pub samples: Vec<(String, u64)>,
@@ -185,7 +185,7 @@ impl Study {
         }
     }
 
-    /// Score of a metric and a channel or plane.
+    /// Score of a metric and a channel or plane; `None` if there is no such score.
     pub fn score(&self, metric: &str, channel: &str) -> Option<&Score> {
         let mut scores = self.scores.iter();
         scores.find(|score| score.metric == metric && score.channel == channel)
@@ -209,7 +209,7 @@ impl Study {
         samples.dominant(&score.channel)
     }
 
-    /// Provenance text with the key `key`.
+    /// Provenance text with the key `key`; `None` for an unknown key.
     pub(crate) fn stated(&self, key: &str) -> Option<&str> {
         let found = self.provenance.iter().find(|(name, _)| name == key);
         found.map(|(_, text)| text.as_str())

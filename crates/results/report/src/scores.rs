@@ -59,7 +59,7 @@ pub struct ScoreCell {
     pub formatted: FormattedValue,
     /// Both ends of the confidence interval; `None` without an interval.
     pub ends: Option<[f64; 2]>,
-    /// Method of the interval.
+    /// Method of the interval; `None` without an interval.
     pub method: Option<String>,
     /// Number of groups of the split that the interval leaves out; `None` for an interval over contact points.
     pub groups: Option<usize>,
@@ -126,7 +126,7 @@ impl ScoreTable {
         }
     }
 
-    /// Scores without variants, for a page of a paper. Scores of planes replace those of their axes.
+    /// Scores without variants, for a page of a paper. Scores of planes replace the scores of their axes.
     #[must_use]
     pub fn headlines(&self) -> ScoreTable {
         let has = |metric: &str, channel: &str| {
@@ -206,7 +206,7 @@ impl ScoreCell {
         self.value.is_some() && self.standing.takes_part()
     }
 
-    /// Remark on its standing: `not better than predicting the mean`, `predictions beyond the trained range (12 %)`; `None` if the value counts without remark.
+    /// Remark on the standing: `not better than predicting the mean`, `predictions beyond the trained range (12 %)`; `None` without a remark.
     pub fn remark(&self) -> Option<String> {
         let words = self.standing.phrase().filter(|_| self.value.is_some())?;
         let share = self

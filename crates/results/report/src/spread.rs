@@ -17,7 +17,7 @@ const OF_LABELS: [(&str, &str); 11] = [
     ("tolerance_interval", CALIBRATION),
     ("r_spatial", "spatial"),
     ("repeatability", "repeatability"),
-    // Nothing is pressed there, so the labels are those of the training.
+    // The samples of this metric are not pressed, so the labels of the training count.
     ("noise_equivalent_force", CALIBRATION),
     ("hysteresis", "load-unload"),
 ];
@@ -93,7 +93,7 @@ fn range(
     (most.1 > ALIKE * least.1).then(|| (labels, range()))
 }
 
-/// Names, label spreads and units of the studies with a known spread.
+/// Names, label spreads and units of the studies with a known spread; `None` if no spread is known.
 fn spreads<'a>(
     studies: &[Study],
     names: &'a [String],
@@ -130,7 +130,7 @@ fn of_channel(study: &Study, part: &str, channel: &str) -> Option<f64> {
     found.or_else(|| of_scores().filter(|_| part == CALIBRATION))
 }
 
-/// Standard deviation of the labels of a channel in a part of the protocol.
+/// Standard deviation of the labels of a channel in a part of the protocol; `None` without samples, or if all labels are equal.
 fn of_samples(study: &Study, part: &str, channel: &str) -> Option<f64> {
     let samples = study.samples.as_ref()?;
     let labels = samples.channel(channel)?;

@@ -51,7 +51,7 @@ pub struct Table {
 pub struct Row {
     /// One cell for each column.
     pub cells: Vec<Cell>,
-    /// Better direction of this row, for a column of [`Direction::OfRows`].
+    /// Better direction of this row, for a column of [`Direction::OfRows`]; `None` for no direction.
     pub better: Option<Better>,
     /// True if LaTeX separates this row from the previous one.
     pub begins_group: bool,
@@ -111,7 +111,7 @@ impl Table {
         all.into_iter().for_each(|words| self.note(words));
     }
 
-    /// Position of the first column with this direction.
+    /// Position of the first column with this direction; `None` if there is no such column.
     fn column_of(&self, direction: Direction) -> Option<usize> {
         let mut columns = self.columns.iter();
         columns.position(|column| column.direction == direction)

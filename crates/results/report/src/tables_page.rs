@@ -25,7 +25,7 @@ use crate::table::Table;
 pub struct TablesPage {
     /// Title of the page.
     pub title: String,
-    /// Badge for an important fact, such as simulated samples.
+    /// Badge for an important fact, such as simulated samples; `None` for no badge.
     pub badge: Option<String>,
     /// Sentences below the title.
     pub lead: Vec<String>,

@@ -16,7 +16,7 @@ use crate::task_result::{ResultScore, ResultTask, TaskResult};
 
 pub use render::TASK_COMPARISON_SCHEMA;
 
-/// Scores of the tasks of several results side by side, with the test of each score of each pair of results.
+/// Task scores of several results side by side, with tests of every score between every pair of results.
 ///
 /// If both results have the same labels and their states are known, a score is tested in pairs by the signs of the clusters. Otherwise it is tested
 /// by the intervals of both scores. All scores and pairs of one task form one family of Holm's procedure. Scores of other definitions, and scores
@@ -73,7 +73,7 @@ pub struct TaskAnswer {
     pub values: Sides<Option<f64>>,
     /// Difference with its test, or the reason why there is no difference.
     pub difference: Result<Difference, String>,
-    /// Position of the result that is shown to be better.
+    /// Position of the result that is shown to be better; `None` if there is no such result.
     pub winner: Option<usize>,
 }
 
@@ -119,7 +119,7 @@ impl TaskComparison {
         }
     }
 
-    /// Metric in `metrics` that no result has.
+    /// Metric in `metrics` that no result has; `None` if all are known.
     pub fn unknown_metric<'m>(results: &[TaskResult], metrics: &'m [String]) -> Option<&'m str> {
         let tasks = results.iter().flat_map(|result| &result.tasks);
         let scores = tasks.flat_map(|task| &task.scores);
@@ -256,7 +256,7 @@ fn decide_together(answers: &mut [TaskAnswer], results: &[TaskResult]) {
         let task = results[answer.sides.a].task(&answer.task);
         let mut scores = task.into_iter().flat_map(|task| task.compared());
         let score = scores.find(|score| score.named() == answer.score);
-        // The unit stands beside the verdict, not in it.
+        // The verdict has no unit, because the answer states the unit.
         let better = score.and_then(|score| {
             let question = Question::new(Unit::One, score.better());
             Verdict::of(Ok(decided.clone()), question).better()

@@ -14,7 +14,7 @@ use crate::results::{Made, Study};
 const ANY_VERSION: &str = "taceva.tasks/";
 /// Remedy for a result of another version.
 const AGAIN: &str = "run `taceva score --task …` again with this version";
-/// Roles of the tables with labels. A merged result numbers them.
+/// Roles of the tables with labels. A merged result numbers the roles.
 const OF_LABELS: [&str; 2] = ["truth", "dataset"];
 /// Name of the score of the best constant as a variant.
 const OF_CONSTANT: &str = "of_constant";
@@ -168,7 +168,7 @@ impl TaskResult {
         digests
     }
 
-    /// The task called `name`.
+    /// The task called `name`; `None` for an unknown name.
     pub(crate) fn task(&self, name: &str) -> Option<&ResultTask> {
         self.tasks.iter().find(|task| task.name == name)
     }
@@ -258,7 +258,7 @@ impl ResultTask {
             })
     }
 
-    /// Score of a metric and variant.
+    /// Score of a metric and variant; `None` if there is no such score.
     pub(crate) fn find(&self, of: &ResultScore) -> Option<&ResultScore> {
         let mut scores = self.scores.iter();
         scores.find(|score| score.metric == of.metric && score.variant == of.variant)
@@ -328,7 +328,7 @@ impl ResultScore {
         }
     }
 
-    /// Standing of the score. It counts if its whole interval is better than the score of the best constant, or if there is no such constant.
+    /// Standing of the score. The score counts if its whole interval is better than the best constant, or if no constant has a score.
     pub(crate) fn standing(&self) -> Standing {
         let Some(constant) = self.estimate.of_constant else {
             return Standing::Counts;

@@ -68,7 +68,7 @@ impl Provenance {
         ))
     }
 
-    /// Number of models of the [cross-validation](Provenance::cross_validation). `None` if the provenance does not state it.
+    /// Number of models of the [cross-validation](Provenance::cross_validation). `None` if the provenance does not state the number.
     pub fn fold_models(&self) -> Option<usize> {
         self.cross_validation()?;
         let split = self.split.as_deref()?;

@@ -82,7 +82,7 @@ pub fn group_errors(samples: &Samples, scores: &[Score]) -> Vec<GroupErrors> {
                 own.entry(group).or_default().add(error);
             }
         }
-        // An angle with a period has other errors than the difference.
+        // For an angle with a period, the error may differ from the plain difference.
         let is_same = |value: f64| (all.mean() - value).abs() <= 1e-9 * value.abs();
         if all.n != score.n || !score.value.number().is_some_and(is_same) {
             continue;

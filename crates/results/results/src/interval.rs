@@ -11,7 +11,7 @@ pub enum Interval {
         ends: [f64; 2],
         /// Method: `jackknife by point_id, G=32`.
         method: String,
-        /// Standard error behind the ends, in the unit of the score.
+        /// Standard error behind the ends, in the unit of the score; `None` if the result does not state it.
         standard_error: Option<f64>,
         /// Number of clusters; `None` if the result does not state it.
         clusters: Option<u64>,

@@ -21,13 +21,13 @@ pub const OPTIMISTIC: &str = "the scores are optimistic";
 pub struct Provenance {
     /// Version of TacEva.
     pub taceva: String,
-    /// Digest of the dataset.
+    /// Digest of the dataset; `None` without a common dataset.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dataset: Option<String>,
     /// Recordings joined for the result, in the order of the command; empty for a single recording.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub recordings: Vec<RecordingProvenance>,
-    /// View of the frames, for samples with several pictures: `left`, or `left+right` side by side.
+    /// View of the frames, for samples with several pictures: `left`, or `left+right` side by side; `None` for other samples.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub view: Option<String>,
     /// Digests of the tables by name, for results without a dataset.
@@ -42,10 +42,10 @@ pub struct Provenance {
     /// Sentence about neighbouring samples that resemble each other, and about their division into parts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub neighbours: Option<String>,
-    /// Seed of all random choices.
+    /// Seed of all random choices; `None` without a common seed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seed: Option<u64>,
-    /// Scored part: `test`, `all`, …
+    /// Scored part: `test`, `all`, …; `None` without a common part.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub part: Option<String>,
     /// Number of samples in each part, if there is a split.
@@ -63,15 +63,14 @@ pub struct Provenance {
     /// Settings of the devices that made the recordings, such as `force_rate_hz`; for several recordings, settings that are equal in all.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub devices: BTreeMap<String, String>,
-    /// UTC day of the last recording that has instruments.
+    /// UTC day of the last recording that has instruments; `None` without such a recording.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recorded_on: Option<Date>,
-    /// Number of frames behind the result, each counted once for training and once for prediction, whether decoded in this run or before for cached
-    /// features.
+    /// Number of frames behind the result, counted once for training and once for prediction. Frames behind cached features count too.
     pub frames_decoded: u64,
     /// Third-party plugins behind the result.
     pub plugins: Vec<String>,
-    /// Digest of the table of samples written next to the result.
+    /// Digest of the table of samples written next to the result; `None` without this table.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub samples_table: Option<String>,
     /// Accepted manual edits of the inputs: file, date, reason and digests.
@@ -162,13 +161,13 @@ impl Provenance {
 pub struct ModelProvenance {
     /// Name: `ridge`.
     pub name: String,
-    /// Settings, including those that the fit chose.
+    /// Settings, including the settings that the fit chose.
     pub settings: BTreeMap<String, String>,
     /// Digest of the model file; `unknown` for a model in the caller's program.
     pub digest: String,
     /// Digest of the training dataset; `unknown` for a model fitted by another program.
     pub fitted_on: String,
-    /// Setting that the fit chose, and the method: `strength with each training sample left out in turn`.
+    /// Setting that the fit chose, and the method: `strength with each training sample left out in turn`; `None` without a choice.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chosen_by: Option<String>,
     /// `given` if the model is in the caller's program and only its predictions were used.

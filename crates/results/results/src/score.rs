@@ -123,7 +123,7 @@ impl Score {
         variant.value.number().map(|_| variant)
     }
 
-    /// Score for verdicts: the deciding variant's value, unit and interval, or else those of the score.
+    /// Score for verdicts, with value, unit and interval of the deciding variant, or else of the score itself.
     #[must_use]
     pub fn deciding(&self) -> Score {
         match self.decided_by() {

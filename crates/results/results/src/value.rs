@@ -48,7 +48,7 @@ impl Value {
         matches!(self, Value::Map(_) | Value::Curve(_) | Value::Matrix(_))
     }
 
-    /// Reason for the absence of the value, in words.
+    /// Reason for the absence of the value, in words; `None` if the value is present.
     pub fn reason(&self) -> Option<String> {
         match self {
             Value::Undefined(reason) => Some(format!("undefined: {reason}")),

@@ -156,7 +156,7 @@ impl Classes {
         self.names.all()
     }
 
-    /// Class that F1, precision and recall describe.
+    /// Class that F1, precision and recall describe; `None` without a positive class.
     #[must_use]
     pub fn positive(&self) -> Option<&str> {
         self.names.positive_name()
@@ -178,7 +178,7 @@ impl Classes {
         &self.rule
     }
 
-    /// Counts of all clusters except those in `names`.
+    /// Counts of all clusters except the clusters in `names`.
     pub(crate) fn without_clusters(&self, names: &[&str]) -> Classes {
         let mut left = self.clone();
         left.clusters.remove(names);
@@ -313,7 +313,7 @@ impl Classes {
         cells.collect()
     }
 
-    /// All scores, first those of the task, then those of each class.
+    /// All scores: the scores of the task, then the scores of each class.
     ///
     /// | metric | variants | constant to beat |
     /// |---|---|---|

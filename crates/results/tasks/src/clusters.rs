@@ -46,7 +46,7 @@ impl<T> ByCluster<T> {
     where
         T: Default,
     {
-        // Twice looked up for a new cluster alone, so that a known one allocates no name.
+        // A known cluster allocates no name. Only a new cluster needs a third lookup.
         if !self.0.contains_key(cluster) {
             self.0.insert(cluster.to_owned(), T::default());
         }

@@ -28,7 +28,7 @@ pub enum TaskError {
         column: &'static str,
         /// Name found.
         name: String,
-        /// Nearest name of a class of the task.
+        /// Nearest name of a class of the task; `None` if no name is similar.
         nearest: Option<String>,
     },
     /// A position beyond the classes of the task.
@@ -60,7 +60,7 @@ pub enum TaskError {
     UnknownPositive {
         /// Name found.
         name: String,
-        /// Nearest name of a class of the task.
+        /// Nearest name of a class of the task; `None` if no name is similar.
         nearest: Option<String>,
     },
     /// A number that is not finite.

@@ -82,7 +82,7 @@ impl Names {
         self.names.len()
     }
 
-    /// Position of the positive class.
+    /// Position of the positive class; `None` without a positive class.
     pub(crate) fn positive(&self) -> Option<usize> {
         self.positive.map(|position| position as usize)
     }
@@ -92,7 +92,7 @@ impl Names {
         self.positive().filter(|_| self.len() == 2)
     }
 
-    /// Name of the positive class.
+    /// Name of the positive class; `None` without a positive class.
     pub(crate) fn positive_name(&self) -> Option<&str> {
         let position = self.positive()?;
         self.names.get(position).map(String::as_str)

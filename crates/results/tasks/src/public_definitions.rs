@@ -55,7 +55,7 @@ impl TaskState {
     }
 }
 
-/// Value of the metric without a variant.
+/// Value of the metric without a variant; `None` if absent or undefined.
 fn value(scores: &[TaskScore], metric: &str) -> Option<f64> {
     let mut scores = scores.iter();
     let found = scores.find(|score| score.metric == metric && score.variant.is_none());

@@ -74,11 +74,11 @@ pub struct TaskScores {
     pub clusters: Vec<String>,
     /// Classes in their order; empty for a kind without classes.
     pub names: Vec<String>,
-    /// Class that F1, precision and recall describe.
+    /// Class that F1, precision and recall describe; `None` without a positive class.
     pub positive: Option<String>,
     /// Remarks on labels and predictions, such as rows without a label.
     pub notes: Vec<String>,
-    /// Scores, those of the task first.
+    /// Scores, with the scores of the task first.
     pub scores: Vec<TaskScore>,
     /// Counts above 0 of true and predicted classes.
     pub confusion: Vec<ConfusionCount>,

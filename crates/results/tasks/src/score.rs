@@ -20,7 +20,7 @@ use crate::estimate::Estimate;
 pub struct TaskScore {
     /// Name of the metric, such as `f1`.
     pub metric: &'static str,
-    /// Second number of the metric, such as `in_truth`, or the class.
+    /// Second number of the metric, such as `in_truth`, or the class; `None` for the metric itself.
     pub variant: Option<String>,
     /// Unit of the value; `None` for a pure number.
     pub unit: Option<&'static str>,
@@ -28,7 +28,7 @@ pub struct TaskScore {
     pub definition: String,
     /// Value, interval and counts.
     pub estimate: Estimate,
-    /// Interval of a share if frames were independent. Frames of one cluster are not, so this is never the interval of the score.
+    /// Interval of a share if frames were independent; `None` for other scores. Frames of a cluster are dependent, so the score has no such interval.
     pub if_frames_were_independent: Option<Interval>,
     /// Properties of the samples that limit the score.
     pub flags: Vec<ScoreFlag>,

@@ -27,7 +27,7 @@ const PLACE: &str = "place";
 /// Pose scores that apply to places.
 const OF_PLACES: [&str; 2] = ["pose_translation", "pose_axis"];
 
-/// Sums of one task by cluster, with the definition of the task.
+/// Sums of one task by cluster, with the definition of the task. Absent sums are `None`.
 ///
 /// The scores depend only on the samples: states of parts of a table, merged in any order, have the scores of the whole table.
 ///
@@ -270,7 +270,7 @@ fn remarks_on_maps(state: &DepthState) -> Vec<String> {
     remarks.into_iter().flatten().collect()
 }
 
-/// Both parts as one; a part that only one state has is refused.
+/// Merges two parts. A part that only one state has is refused.
 fn both<T>(
     what: &'static str,
     ours: Option<T>,

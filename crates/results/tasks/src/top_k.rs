@@ -218,7 +218,7 @@ impl TopK {
         }
         let value = |places: &Places| self.share_of(places, k, ties);
         let found = value(&all);
-        // Each cluster is taken away and put back.
+        // Subtracts each cluster and adds it again.
         let parts = self.clusters.values().map(|part| {
             for (place, count) in part {
                 *all.entry(*place).or_insert(0) -= count;

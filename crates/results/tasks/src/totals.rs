@@ -132,7 +132,7 @@ impl<'a, const SUMS: usize, const COUNTS: usize> LeaveOneOut<'a, SUMS, COUNTS> {
         &self.total
     }
 
-    /// Estimate of `value`, with the possible range that `range` returns for it. The count at index `count` is the number of samples.
+    /// Estimate of `value`, with the range that `range` returns for the value. The count at index `count` is the number of samples.
     pub(crate) fn estimate(
         &self,
         count: usize,

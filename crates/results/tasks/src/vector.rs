@@ -25,8 +25,8 @@ pub(crate) fn cross([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
 
 /// Angle of the point (`along`, `across`) from the axis `along`, in degrees from −180 to 180.
 ///
-/// Uses the arc tangent of `libm`, because results of platform libraries differ in their last bits. Unlike the arc cosine of a trace, it loses no
-/// digit near 0 and near a half turn.
+/// Uses the arc tangent of `libm`, because results of platform libraries differ in their last bits. Unlike the arc cosine of a trace, this function
+/// loses no digit near 0 and near a half turn.
 pub(crate) fn degrees(across: f64, along: f64) -> f64 {
     libm::atan2(across, along).to_degrees()
 }

@@ -3,7 +3,7 @@
 use crate::driver::Axes;
 use crate::quantity::{Hertz, Newton};
 
-/// Facts about a force transducer.
+/// Facts about a force transducer. Undeclared facts are `None`.
 ///
 /// ```
 /// use taceva_core::{Axes, ForceFacts, Hertz};

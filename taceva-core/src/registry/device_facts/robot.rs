@@ -4,7 +4,7 @@ use super::workspace::Workspace;
 use crate::driver::Speed;
 use crate::quantity::Millimetre;
 
-/// Facts about a robot.
+/// Facts about a robot. Undeclared facts are `None`.
 ///
 /// ```
 /// use taceva_core::{RobotFacts, Speed};
@@ -21,8 +21,8 @@ pub struct RobotFacts {
     pub speed_max: Option<Speed>,
     /// Repeatability of a pose: one standard deviation per axis.
     pub repeatability: Option<Millimetre>,
-    /// Noise of a reported pose about its target: one standard deviation per axis. For `None`, the repeatability replaces the noise of a real robot,
-    /// and 0 replaces the noise of a simulated robot.
+    /// Noise of a reported pose about its target: one standard deviation per axis. If `None`, a real robot counts with its repeatability, a simulated
+    /// robot with 0.
     pub pose_noise: Option<Millimetre>,
     /// Deceleration after a halt, mm/s².
     pub deceleration_mm_s2: Option<f64>,

@@ -4,7 +4,7 @@ use crate::footprint::Footprint;
 use crate::frame::FrameInfo;
 use crate::quantity::{Hertz, Millimetre, Newton};
 
-/// Facts about a sensor.
+/// Facts about a sensor. Undeclared facts are `None`.
 ///
 /// ```
 /// use taceva_core::{Footprint, Millimetre, SensorFacts};

@@ -107,7 +107,7 @@ impl Certificate {
         let required = KEYS.iter().take(REQUIRED).map(|(key, _)| *key);
         let mut missing: Vec<&str> = required.filter(|key| is_missing(key)).collect();
         if !missing.is_empty() {
-            // One of two each, which is an error of its own if no other key is missing.
+            // One key of each pair is required. A missing pair is a separate error if no other key is missing.
             let either = [("k", "p"), ("U", "U_relative")].into_iter();
             let either = either.filter(|(one, other)| is_missing(one) && is_missing(other));
             missing.extend(either.map(|(one, _)| one));

@@ -44,7 +44,7 @@ pub(crate) trait AnyFamily: Send {
     ) -> Option<Intervals>;
 }
 
-/// Erases the type of `family`.
+/// Erases the type of `family`; always `Some`, as `FamilyKind` requires.
 pub(crate) fn erased(family: impl Family) -> Option<Box<dyn AnyFamily>> {
     Some(Box::new(Erased(family)))
 }

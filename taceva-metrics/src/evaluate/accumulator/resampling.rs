@@ -16,7 +16,7 @@ pub(super) type Cell<'a> = (u64, &'a ErasedSums);
 
 /// Calls `visit` with each cluster and the sums of all other clusters.
 ///
-/// Running sums of the clusters before and after avoid any subtraction, so that sums without a subtraction have intervals too.
+/// Running sums of the clusters before and after make subtractions unnecessary. Sums that cannot be subtracted therefore have intervals too.
 pub(super) fn each_left_out(
     empty: &ErasedSums,
     cells: &[Cell<'_>],

@@ -83,7 +83,7 @@ impl Vector for Four {
 
     #[inline(always)]
     fn plus_aside(self, other: Four, _one: Four) -> Four {
-        // No register is free for the ones, and loading them each time costs more than it saves.
+        // No register is free for the vector of ones, and loading the vector for each sum costs more than the multiplier saves.
         self.plus(other)
     }
 

@@ -110,7 +110,7 @@ impl Plane {
 }
 
 impl Plane {
-    /// Missing axis, if no plane has both axes: the second axis of a plane with its first axis, else the first axis of all.
+    /// Missing axis of the first plane with one axis, else the first axis of the first plane; `None` if a plane has both axes.
     fn missing_axis(channels: &Channels) -> Option<&'static str> {
         if !planes(channels).is_empty() {
             return None;

@@ -63,7 +63,7 @@ impl Limit {
         let shared_squared = &shared * &shared;
         let rest = &(&spread_x * &spread_y) - &shared_squared;
         let threshold = critical_factor(freedom);
-        // The one-sided t of the slope; presses on a line have no uncertainty of it.
+        // One-sided t test of the slope. Presses exactly on a line leave no uncertainty of the slope.
         let rises = !(shared.is_zero() || shared.is_negative())
             && (rest.is_zero() || shared_squared.root_over(&rest) * freedom.sqrt() > threshold);
         if !rises {

@@ -41,7 +41,7 @@ pub(crate) struct LoopSums {
 }
 
 impl Loops {
-    /// The family for `plan`.
+    /// The family for `plan`; `None` without depth or force.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Loops> {
         let position = |name| plan.channels().position(name);
         let place = position("Px").zip(position("Py"));

@@ -49,7 +49,7 @@ fn mean_distance(from: &[Point], to: &[Point]) -> Result<(f64, u64), UndefinedRe
     mean_of_nearest(common, to).ok_or(UndefinedReason::NoOverlap)
 }
 
-/// RN of the mean distance from each point of `from` to the nearest point of `to`, and the number of points in `from`.
+/// RN of the mean distance from each point of `from` to the nearest point of `to`, and the number of points in `from`; `None` for no point.
 fn mean_of_nearest<'a>(from: impl Iterator<Item = &'a Point>, to: &[Point]) -> Option<(f64, u64)> {
     let search = NearestPoints::new(to.iter().copied());
     let (mut count, mut distances) = (0, ExactSum::default());

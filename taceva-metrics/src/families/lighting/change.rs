@@ -89,8 +89,8 @@ impl Change {
 
     /// |∂R / ∂ ln MAEc| = a ρ / (a + b)², ρ = MAEc / MAEo. The derivative with respect to ln MAEo has the opposite sign.
     ///
-    /// For `plus`, an error below the reference keeps the magnitude of the slope without `plus`. R is then 1, but the true error may
-    /// be on either side of the bend, and a slope of 0 would suggest a certain R. `None` if R is undefined.
+    /// For `plus`, an error below the reference keeps the magnitude of the slope without `plus`. R is then 1, but the true error may be on either
+    /// side of the bend. A slope of 0 would suggest a certain R. `None` if R is undefined.
     pub(super) fn slope(self, plus: bool) -> Option<f64> {
         let [Some(light), Some(harm)] = self.ratios() else {
             return None;

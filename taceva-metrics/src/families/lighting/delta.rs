@@ -49,7 +49,7 @@ pub(super) fn intervals(
         }
     }
     let [plain, plus] = terms;
-    // If every error grew, both are one quantity and have one interval.
+    // If every error grew, both variants are equal and share one interval.
     let values = |terms: &[Term<'_>]| -> Vec<u64> {
         terms.iter().map(|term| term.value.to_bits()).collect()
     };

@@ -18,7 +18,7 @@ pub(super) fn reach(mut misses: Vec<f64>) -> f64 {
     }
     misses.iter_mut().for_each(|miss| *miss = miss.abs());
     misses.sort_by(f64::total_cmp);
-    // The 95 % quantile of n + 1 samples.
+    // Rank of the 95 % quantile of n + 1 samples.
     let rank = ((misses.len() + 1) * 19).div_ceil(20).min(misses.len());
     let factor = misses[rank - 1] / NORMAL_95;
     if factor > 0.0 && factor.is_finite() {

@@ -83,7 +83,7 @@ pub(super) fn fit_best(
                     .map_or(f64::INFINITY, |rmse| (rmse / span).powi(2))
             })
             .sum();
-        // The simplest comes first and is replaced only by better ones.
+        // The simplest fit comes first, and only a better fit replaces it.
         if best.as_ref().is_none_or(|(least, ..)| score < *least) {
             best = Some((score, mapped, fit));
         }

@@ -1,6 +1,6 @@
 //! Classes from outputs of a network: the greatest output, and probabilities calibrated by one temperature.
 
-/// Range of temperatures. Beyond it, probabilities are nearly equal, or nearly 0 and 1.
+/// Range of temperatures. Beyond this range, probabilities are nearly equal, or nearly 0 and 1.
 const RANGE: [f64; 2] = [0.05, 20.0];
 
 /// Number of halvings of the range of the inverse temperature.

@@ -17,7 +17,7 @@ use crate::training::fit::ModelFit;
 use crate::training::problem::Problem;
 use crate::training::regressor::ModelRegressor;
 
-/// Samples whose labels the training part has, with their classes.
+/// Samples with a label of the training part, and their classes.
 struct Known {
     features: Features,
     classes: Vec<u32>,

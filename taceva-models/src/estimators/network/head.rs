@@ -26,7 +26,7 @@ pub(super) enum ClassWeights {
 }
 
 impl ClassWeights {
-    /// Weights with the name `word`.
+    /// Weights with the name `word`; `None` for an unknown name.
     pub(super) fn of(word: &str) -> Option<ClassWeights> {
         match word {
             "equal" => Some(ClassWeights::Equal),

@@ -60,7 +60,7 @@ impl PluginRegressor {
         })
     }
 
-    /// Loads the model from a file; `factory` opens it in the plugin.
+    /// Loads the model from a file; `factory` opens the model in the plugin.
     pub(crate) fn load(
         factory: &dyn EstimatorFactory,
         card: &PluginCard,

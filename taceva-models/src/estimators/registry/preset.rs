@@ -52,7 +52,7 @@ const BEST: Preset = Preset {
 pub const PRESETS: &[Preset] = &[FAST, DEFAULT, BEST];
 
 impl Preset {
-    /// Finds the preset `name`.
+    /// Finds the preset `name`; `None` for an unknown name.
     pub fn named(name: &str) -> Option<&'static Preset> {
         PRESETS.iter().find(|preset| preset.name == name)
     }

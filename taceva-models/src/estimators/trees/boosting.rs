@@ -185,7 +185,7 @@ impl ModelEstimator for GradientBoosting {
         let held = problem.validation(validation)?;
         let trials = Trials::new(&problem, held.as_ref(), self.trees.is_none());
         let channels = problem.channels();
-        // Descending: of equal errors the last, simplest one is taken.
+        // Descending: of numbers with equal errors, the last and smallest number is chosen.
         let counts: Vec<usize> = match self.trees {
             Some(trees) => vec![trees],
             None => (1..=self.most).rev().collect(),

@@ -14,7 +14,7 @@ pub(super) struct Growth {
     pub(super) depth: usize,
     /// Minimum number of samples in a leaf.
     pub(super) leaf: usize,
-    /// Number of features considered for a split. They are drawn for each split.
+    /// Number of features considered for a split. The features are drawn for each split.
     pub(super) features: usize,
 }
 

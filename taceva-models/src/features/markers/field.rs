@@ -86,7 +86,7 @@ impl CellFeatures for MarkerField {
             let nearest = &cell.speakers[..cell.speakers.len().min(NEAREST)];
             let unseen = nearest.iter().filter(|own| !tracked[**own].is_seen).count();
             let measured = || {
-                // All are unseen: takes the displacement filled in from further away.
+                // All markers are unseen: takes the displacement interpolated from markers further away.
                 let own = cell.speakers.first()?;
                 Some(tracked[*own].displacement_px)
             };

@@ -137,7 +137,7 @@ fn nearest_distances(markers: &[Marker], otherwise: f64) -> Vec<f64> {
 fn unevenness(markers: &[Marker]) -> f64 {
     let places: Vec<[f64; 2]> = markers.iter().map(|marker| marker.place_px).collect();
     let of = |own: &[f64; 2]| {
-        // The first is the marker itself.
+        // The closest place is the marker itself.
         let close = closest(*own, &places, 4);
         let far = |rank: usize| distance(*own, places[close[rank]]);
         far(3) / far(1) - 1.0

@@ -71,7 +71,7 @@ pub(super) fn spots(picture: &Plane, scale: Scale, least: f32) -> Vec<Marker> {
             }
         }
     }
-    // A stable sort keeps the upper or left one of equals first.
+    // The stable sort keeps the upper or left one of equal spots first.
     tops.sort_by(|left, right| right.contrast.total_cmp(&left.contrast));
     let mut kept: Vec<Marker> = Vec::new();
     let apart = APART * scale.spacing_px;

@@ -56,7 +56,7 @@ pub struct Untried {
 }
 
 impl AutoCard {
-    /// Last trial of the chosen model.
+    /// Last trial of the chosen model; `None` if the record lacks the model.
     pub fn best(&self) -> Option<&AutoTrial> {
         let mut trials = self.tried.iter();
         trials.rfind(|trial| trial.model == self.taken)

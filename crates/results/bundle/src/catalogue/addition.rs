@@ -52,19 +52,19 @@ pub struct Addition {
 /// ```
 ///
 /// # Errors
-/// [`CatalogueFolderError`] if the bundle is not verified, is a draft or is in the catalogue already. An invalid entry is an error too, as is a file
-/// that cannot be written. After an error the catalogue is unchanged, unless only some of several entries could be written. Repeat the call to
-/// complete them.
+/// [`CatalogueFolderError`] if the bundle is not verified, is a draft or is in the catalogue already. Also for an invalid entry and for a file that
+/// cannot be written. After an error the catalogue is unchanged, unless only some of several entries could be written. Repeat the call to complete
+/// these entries.
 pub fn add(request: &AddRequest) -> Result<Addition, CatalogueFolderError> {
     let submission = Submission::read(request)?;
     let root = request.catalogue.as_path();
     if !root.exists() {
-        // A refusal leaves no folder.
+        // Checks first, so that a refusal creates no folder.
         changed(root, &submission, request)?;
         fs::create_dir_all(root).map_err(CatalogueFolderError::file(root))?;
     }
     let place = root.join(BUNDLES);
-    // Two additions at once would each lose the rows of the other.
+    // Locks the catalogue, because concurrent additions would lose each other's rows.
     let turn = Staged::alone(&place).map_err(CatalogueFolderError::file(&place))?;
     let Some(_turn) = turn else {
         let problem = "another process adds a bundle; run the command again when it has ended";
@@ -90,7 +90,7 @@ fn changed(
     for (name, rows) in &submission.sensors {
         let mut place = EntryPlace::of(name, &entries, &request.bundle)?;
         if !has_rows(&entries, &place.path, &submission.digest) {
-            // Two names of one sensor share its entry.
+            // Two names of one sensor share one entry.
             if let Some(text) = texts.remove(&place.path) {
                 place.text = text;
             }
@@ -119,7 +119,7 @@ fn check_new(
             CatalogueFolderError::refused(&root.join(&file.path), problem)
         };
         let text = file.text.map_err(refused)?;
-        // `check` compares seals; every addition would read all of them.
+        // Skips the seals: `check` verifies them, and every addition would compute all of them.
         let known: Manifest =
             serde_json::from_str(&text).map_err(|error| refused(error.to_string()))?;
         if file.path != own && results_digest(&known) == results {

@@ -1,4 +1,4 @@
-//! Verifies bundles again whose numbers are in a catalogue.
+//! Repeats the verification of bundles whose numbers are in a catalogue.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -17,10 +17,10 @@ use crate::verify::{VerifyRequest, verify};
 
 /// Verifies `bundles` to the deepest level that their files allow. Each manifest must equal the copy in the catalogue at `root`, byte for byte.
 ///
-/// The manifest states the level of each claim, which limits the level of its row. So a row cannot state a deeper level than its bundle reaches.
+/// The level of a claim in the manifest limits the level of its row. A row therefore cannot state a deeper level than its bundle reaches.
 ///
 /// # Errors
-/// [`CatalogueFolderError::Bundle`] for a bundle that cannot be read. Damaged bundles and differing numbers are not errors: they are listed.
+/// [`CatalogueFolderError::Bundle`] for a bundle that cannot be read. Damaged bundles and differing numbers are listed instead.
 pub fn check_bundles(
     root: &Path,
     bundles: &[PathBuf],

@@ -33,7 +33,7 @@ pub enum CatalogueFolderError {
     Unverified {
         /// Path of the bundle.
         path: PathBuf,
-        /// The number, and the command that lists all such numbers.
+        /// The number, and the command that lists all unverified numbers.
         problem: String,
     },
     /// An entry is invalid.

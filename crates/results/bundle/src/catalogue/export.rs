@@ -66,7 +66,7 @@ impl FormFile {
 /// ```
 ///
 /// # Errors
-/// [`CatalogueFolderError`] for an invalid file, for a number that its manifest does not hold, and for a catalogue without bundles.
+/// [`CatalogueFolderError`] for an invalid file, for a number that its manifest lacks, and for a catalogue without bundles.
 pub fn catalogue_form(
     root: &Path,
     form: CatalogueForm,
@@ -163,7 +163,7 @@ fn description(sensors: &[Sensor]) -> String {
     sentences.join(" ")
 }
 
-/// Folder of a catalogue, described as a bundle is.
+/// Folder of a catalogue, described like a bundle.
 struct Folder {
     /// Manifest with name, day, authors and files, but without claims.
     manifest: Manifest,

@@ -24,7 +24,7 @@ pub(super) struct TextFile {
     pub(super) path: String,
     /// Name without its extension.
     pub(super) stem: String,
-    /// Text, or the reason why it cannot be read.
+    /// Text, or the reason why the file cannot be read.
     pub(super) text: Result<String, String>,
 }
 
@@ -80,7 +80,7 @@ pub(super) fn check_catalogue_folder(root: &Path) -> Result<(), CatalogueFolderE
     Ok(())
 }
 
-/// Writes a file of a catalogue, as a whole or not at all. Creates its folder if that is missing.
+/// Writes a file of a catalogue, as a whole or not at all. Creates its folder if missing.
 pub(super) fn write(root: &Path, path: &str, text: &str) -> Result<(), CatalogueFolderError> {
     if let Some((folder, _)) = path.split_once('/') {
         check_no_link(root, folder)?;

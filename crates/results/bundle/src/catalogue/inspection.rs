@@ -41,7 +41,7 @@ pub struct CatalogueCheck {
 /// Checks the catalogue at `root`.
 ///
 /// # Errors
-/// [`CatalogueFolderError`] if the folder cannot be read or is not a catalogue. A fault of a file is not an error: it is listed.
+/// [`CatalogueFolderError`] if the folder cannot be read or is not a catalogue. Faults of files are listed instead.
 pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderError> {
     check_catalogue_folder(root)?;
     let built_in = catalogue::all();
@@ -82,7 +82,7 @@ pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderErr
         });
     }
     findings.extend(alike(&entries, &built_in));
-    // The rows of an entry that cannot be read may be those of any manifest.
+    // An unreadable entry may contain rows of any manifest.
     let known = manifests.iter().filter(|_| !is_unreadable);
     findings.extend(known.filter_map(|(path, manifest)| {
         let rows = rows.get(path).copied().unwrap_or_default();
@@ -129,7 +129,7 @@ pub fn entries(root: &Path) -> Result<Vec<Sensor>, CatalogueFolderError> {
 /// Writes the index of a catalogue without a finding.
 ///
 /// # Errors
-/// [`CatalogueFolderError`] if it cannot be written.
+/// [`CatalogueFolderError`] if the index cannot be written.
 pub fn write_index(root: &Path, check: &CatalogueCheck) -> Result<(), CatalogueFolderError> {
     write(root, INDEX, &check.index)
 }
@@ -180,7 +180,7 @@ fn manifests(
     Ok(known)
 }
 
-/// Fault of a manifest with `claims` numbers, of which entries contain `rows`; `None` if entries contain all.
+/// Fault of a manifest with `claims` numbers, of which entries contain `rows`; `None` if entries contain all numbers.
 fn rows_fault(rows: u64, claims: u64) -> Option<String> {
     match rows {
         0 => {
@@ -264,7 +264,7 @@ fn row_faults(
     faults
 }
 
-/// Entries whose names or aliases equal those of another entry or of a built-in sensor, apart from case and punctuation.
+/// Entries with a name or alias of another entry or of a built-in sensor, apart from case and punctuation.
 fn alike(entries: &[EntryFile], built_in: &[Sensor]) -> Vec<CatalogueFinding> {
     let mut findings = Vec::new();
     for (at, EntryFile { path, sensor, .. }) in entries.iter().enumerate() {

@@ -13,7 +13,7 @@ pub struct AddRequest {
     pub bundle: PathBuf,
     /// Folder of the catalogue, created if missing.
     pub catalogue: PathBuf,
-    /// Public URL of the bundle.
+    /// Public URL of the bundle; `None` if not given.
     pub url: Option<String>,
     /// Maximum size of all files of the bundle together, bytes.
     pub most: u64,

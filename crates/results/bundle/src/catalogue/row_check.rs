@@ -1,4 +1,4 @@
-//! Rows of an entry, compared with the claims of the manifest that they name.
+//! Rows of an entry, compared with the claims of the manifest that each row names.
 
 use taceva_report::catalogue::{DEPTHS, Measured};
 
@@ -7,7 +7,7 @@ use crate::author::Author;
 use crate::claim::Claim;
 use crate::manifest::Manifest;
 
-/// Fault of a row of the bundle with `manifest`; `None` if the manifest holds the number.
+/// Fault of a row of the bundle with `manifest`; `None` if the manifest contains the number.
 pub(super) fn fault(row: &Measured, manifest: &Manifest) -> Option<String> {
     let is_named = |claim: &&Claim| {
         claim.study == row.study
@@ -28,7 +28,7 @@ pub(super) fn fault(row: &Measured, manifest: &Manifest) -> Option<String> {
     let depth = claim.level.to_string();
     let of_study = manifest.studies.get(row.study);
     let source = of_study.map_or("", |files| files.source.as_str());
-    // The first bundles of this schema state the origin as a whole alone, which is `several` for studies of different ones.
+    // The first bundles of this schema state one origin for all studies: `several` if the origins differ.
     let source = match (source, manifest.source.as_str()) {
         ("", "several") => row.source.as_str(),
         ("", whole) => whole,

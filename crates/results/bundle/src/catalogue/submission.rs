@@ -45,8 +45,8 @@ impl Submission {
     /// Verifies the bundle of `request` and reads its numbers.
     ///
     /// # Errors
-    /// [`CatalogueFolderError::Unverified`] for a bundle that differs from its files, and [`CatalogueFolderError::Refused`] for one that is damaged,
-    /// is a draft, or names no sensor.
+    /// [`CatalogueFolderError::Unverified`] for a bundle that differs from its files. [`CatalogueFolderError::Refused`] for a damaged bundle, a
+    /// draft, or a bundle without a sensor name.
     pub(super) fn read(request: &AddRequest) -> Result<Submission, CatalogueFolderError> {
         let path = request.bundle.as_path();
         let refused = |problem: String| CatalogueFolderError::refused(path, problem);
@@ -175,21 +175,21 @@ impl Submission {
     }
 }
 
-/// Protocol of the presses: the scene that `manifest` lists.
+/// Protocol of the presses: the scene that `manifest` lists; `None` without a scene.
 pub(super) fn protocol(manifest: &Manifest) -> Option<String> {
     let mut files = manifest.files.iter();
     let scene = files.find(|file| file.path == SCENE)?;
     Some(format!("scene {}", scene.sha256))
 }
 
-/// Digest of the results that `manifest` lists.
+/// Digest of the results that `manifest` lists; `None` without results.
 pub(super) fn results_digest(manifest: &Manifest) -> Option<&str> {
     let mut files = manifest.files.iter();
     let results = files.find(|file| file.path == RESULTS);
     results.map(|file| file.sha256.as_str())
 }
 
-/// Reason why a manifest is unfinished: a draft, or one without an author or an SPDX licence.
+/// Reason why a manifest is unfinished: a draft, a missing author, or a missing SPDX licence; `None` if finished.
 pub(super) fn unfinished(manifest: &Manifest) -> Option<String> {
     let licence = manifest.licence.as_deref().unwrap_or_default();
     if manifest.is_unfinished || manifest.authors.is_empty() || licence.is_empty() {
@@ -235,7 +235,7 @@ pub(super) fn check_outcome(found: &Verification, path: &Path) -> Result<(), Cat
     })
 }
 
-/// Interval of the number of a claim in the results.
+/// Interval of the number of a claim in the results; `None` without an interval.
 fn interval_of<'a>(claim: &Claim, report: &'a EvaluationReport) -> Option<&'a Interval> {
     let score = claim.score_in(&report.scores)?;
     let interval = match claim.variant.as_deref() {

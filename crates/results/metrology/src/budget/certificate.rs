@@ -106,7 +106,7 @@ impl Certificate {
         })
     }
 
-    /// Standard uncertainty at a reading: u² = (U/k)² + (U_relative × reading / k)².
+    /// Standard uncertainty at a reading: u² = (U/k)² + (U_relative × reading / k)². `None` for an invalid coverage.
     pub fn standard_uncertainty(&self, reading: f64) -> Option<f64> {
         let k = factor(self.coverage)?;
         Some((self.absolute / k).hypot(self.relative * reading / k))

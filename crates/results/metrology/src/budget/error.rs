@@ -16,7 +16,7 @@ use super::expression::ExpressionError;
 pub struct BudgetError {
     /// Line, from 1; `None` if no single line is at fault.
     pub line: Option<usize>,
-    /// Key or table at fault.
+    /// Key or table at fault; `None` if no single key is at fault.
     pub key: Option<String>,
     /// Problem found.
     pub problem: Box<BudgetProblem>,

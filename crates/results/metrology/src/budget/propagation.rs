@@ -15,7 +15,7 @@ pub(super) struct Combined {
     pub(super) greatest_term: Option<[usize; 2]>,
 }
 
-/// Combines the inputs at the expansion of the model. Derivatives after those of the inputs belong to constants.
+/// Combines the inputs at the expansion of the model. Derivatives after the derivatives of the inputs belong to constants.
 ///
 /// u² = Σ cᵢ²uᵢ² + 2 ΣΣ cᵢcⱼuᵢuⱼrᵢⱼ. Degrees of freedom by Welch and Satterthwaite, with the inputs of a set as one component (GUM H.2).
 ///
@@ -81,7 +81,7 @@ fn second_order(
     for i in 0..count {
         for j in 0..count {
             product[i * count + j] = (0..count).map(|k| curved(i, k) * r.get(k, j)).sum();
-            // A square counts half.
+            // A squared term counts half.
             let size = curved(i, j).abs()
                 * if i == j {
                     std::f64::consts::FRAC_1_SQRT_2

@@ -48,10 +48,10 @@ pub struct Budget {
     pub k: Option<f64>,
     /// Coverage probability.
     pub p: f64,
-    /// First-order expanded uncertainty k u, unrounded, for either method of the interval.
+    /// First-order expanded uncertainty k u, unrounded, for either method of the interval; `None` if `nu_eff` is undefined, unless `u` is 0.
     #[serde(rename = "U")]
     pub expanded: Option<f64>,
-    /// Coverage interval, computed by `method`.
+    /// Coverage interval, computed by `method`; `None` if undefined.
     pub interval: Option<[f64; 2]>,
     /// Method of the coverage interval.
     pub method: Method,
@@ -126,14 +126,14 @@ pub struct Source {
     pub share: Option<f64>,
     /// Measured figure that the source uses; `None` for stated numbers.
     pub from: Option<String>,
-    /// Number of rows behind the figure.
+    /// Number of rows behind the figure; `None` if unknown.
     pub n: Option<u64>,
-    /// Number of clusters behind the figure.
+    /// Number of clusters behind the figure; `None` if unknown.
     pub clusters: Option<u64>,
-    /// Least and greatest label of the figure's rows.
+    /// Least and greatest label of the figure's rows; `None` if unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub labels: Option<[f64; 2]>,
-    /// Digest of the figure's source file.
+    /// Digest of the figure's source file; `None` if unknown.
     pub digest: Option<String>,
 }
 
@@ -197,9 +197,9 @@ pub struct Traceability {
     pub laboratory: String,
     /// Serial number of the instrument.
     pub serial: String,
-    /// Last day of validity.
+    /// Last day of validity; `None` if not stated.
     pub valid_until: Option<String>,
-    /// Day of the recording, in the form of `valid_until`.
+    /// Day of the recording, in the form of `valid_until`; `None` if unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recorded_on: Option<String>,
 }
@@ -214,7 +214,7 @@ impl Traceability {
 }
 
 impl Budget {
-    /// Half-width of the interval, rounded to two digits.
+    /// Half-width of the interval, rounded to two digits; `None` without an interval.
     pub fn rounded(&self) -> Option<f64> {
         self.half_width().map(two_digits)
     }
@@ -252,14 +252,14 @@ impl Budget {
         format!("{name} = {value} {unit}, {uncertainty}, p = {p} %, nu_eff {freedom})")
     }
 
-    /// Interval and its method, in words.
+    /// Interval and its method, in words; `None` without an interval.
     pub fn interval_in_words(&self) -> Option<String> {
         let [low, high] = self.interval?.map(|end| beside(end, self.scale()));
         let unit = shown(&self.unit);
         Some(format!("interval {low} to {high} {unit}, {}", self.method))
     }
 
-    /// Reservation about the reference: no certificate, or a certificate that had expired on the day of the recording.
+    /// Reservation about the reference: no certificate, or a certificate that had expired on the day of the recording; `None` for neither.
     pub fn reservation(&self) -> Option<&'static str> {
         let stated = self.traceability.as_ref();
         if stated.is_some_and(Traceability::is_expired) {

@@ -24,7 +24,7 @@ use super::freedom::Freedom;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Residuals {
     points: BTreeMap<String, Moments>,
-    /// Least and greatest true value.
+    /// Least and greatest true value; `None` for no row.
     truths: Option<[f64; 2]>,
     /// Number of rows whose truth or prediction is not finite.
     n_invalid: u64,

@@ -76,7 +76,7 @@ pub struct Decision {
     pub freedom: Option<f64>,
     /// Coverage factor of the expanded uncertainty; `None` if the uncertainty is unknown.
     pub coverage_factor: Option<f64>,
-    /// Expanded uncertainty at the coverage of the rule, in the unit of the value. A linear approximation if the scale is logarithmic.
+    /// Expanded uncertainty at the coverage of the rule, in the unit of the value; `None` if unknown. Linear approximation for a logarithmic scale.
     pub expanded_uncertainty: Option<f64>,
     /// Limits of the tolerance.
     pub limits: Limits,
@@ -111,7 +111,7 @@ pub fn decide(
     rule.check()?;
     let probability = measured.conformance_probability(limits);
     let coverage = rule.coverage();
-    // Agreed and printed in the unit of the value, on a logarithmic scale too.
+    // Expanded uncertainties are agreed and printed in the unit of the value, even on a logarithmic scale.
     let expanded = measured.expanded(coverage).map(|of| measured.in_unit(of));
     let is_within = limits.contain(measured.value());
     let (acceptance, word) = match (rule, probability) {
@@ -179,7 +179,7 @@ fn acceptance_of(measured: &Measurement, limits: &Limits, least: f64) -> Option<
     }
     let is_enough = |guard: f64| {
         let inner = measured.narrowed(limits, guard)?;
-        // A limit that has no place on the scale is not moved. Both ends of two that have one are equally probable.
+        // A limit outside the domain of the scale is not moved. If both limits are moved, both ends are equally probable.
         let is_moved = |limit: Option<f64>| limit.is_some_and(|limit| measured.holds(limit));
         let low = inner.least().filter(|_| is_moved(limits.least()));
         let high = inner.most().filter(|_| is_moved(limits.most()));

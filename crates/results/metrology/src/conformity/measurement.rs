@@ -162,7 +162,7 @@ impl Measurement {
         self.uncertainty.map(|of| of.freedom)
     }
 
-    /// Coverage factor for a two-sided coverage in 0..1: the ratio of expanded to standard uncertainty.
+    /// Coverage factor for a two-sided coverage in 0..1: the ratio of expanded to standard uncertainty. `None` without an uncertainty.
     #[must_use]
     pub fn coverage_factor(&self, coverage: f64) -> Option<f64> {
         let of = self.uncertainty?;
@@ -172,7 +172,7 @@ impl Measurement {
         ))
     }
 
-    /// Expanded uncertainty for a two-sided coverage in 0..1. On a logarithmic scale relative to the value.
+    /// Expanded uncertainty for a two-sided coverage in 0..1. On a logarithmic scale relative to the value. `None` without an uncertainty.
     #[must_use]
     pub fn expanded(&self, coverage: f64) -> Option<f64> {
         Some(self.coverage_factor(coverage)? * self.uncertainty?.scaled)
@@ -224,7 +224,7 @@ impl Measurement {
         self.scale.quantity()
     }
 
-    /// Ratio of the guarded quantity at `inner` to that at `limit`.
+    /// Ratio of the guarded quantity at `inner` to the guarded quantity at `limit`.
     #[must_use]
     pub fn guard_quotient(&self, limit: f64, inner: f64) -> f64 {
         self.scale.quantity_of(inner) / self.scale.quantity_of(limit)

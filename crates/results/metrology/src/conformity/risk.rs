@@ -151,7 +151,7 @@ impl Process {
             (Some(least), None) => normal::above(z(least)),
             (Some(least), Some(most)) => {
                 let (low, high) = (z(least), z(most));
-                // Of the tails on the side of the unit, so that small differences keep their digits.
+                // Uses the tails on the side of the unit, so that small differences keep their digits.
                 match low > 0.0 {
                     true => normal::above(low) - normal::above(high),
                     false => normal::below(high) - normal::below(low),

@@ -85,7 +85,7 @@ impl CurveFit {
         if let Some(row) = rows.iter().position(is_wrong) {
             return Err(CurveUndefined::NotFinite { row: row + 1 });
         }
-        // Sums are rounded, so they need an order of their own.
+        // Rows are sorted, because rounded sums depend on the order of rows.
         let mut sorted = rows.to_vec();
         sorted.sort_by(|one, other| {
             let by_x = one.x.total_cmp(&other.x);
@@ -212,7 +212,7 @@ fn jackknife(rows: &[CurveRow], all: &[(Coefficients, f64)], count: usize) -> Op
             .map(|solution| solution.coefficients)
     };
     let mut fits: Vec<Coefficients> = points.iter().map(without).collect::<Option<_>>()?;
-    // Points have no order of their own.
+    // Fits are sorted, because rounded sums depend on the order of fits, and points have no inherent order.
     fits.sort_by(|one, other| {
         let pairs = one.iter().zip(other);
         let mut orders = pairs.map(|(one, other)| one.total_cmp(other));

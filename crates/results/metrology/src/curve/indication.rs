@@ -46,7 +46,7 @@ impl Indication {
         is_there.then(|| 100.0 * (self.indicated - self.truth) / self.truth)
     }
 
-    /// Ratio of true force to indicated force.
+    /// Ratio of true force to indicated force; `None` unless both are above 0 and finite.
     fn ratio(&self) -> Option<f64> {
         self.error_percent()
             .filter(|_| self.indicated > 0.0)

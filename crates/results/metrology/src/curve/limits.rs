@@ -17,8 +17,7 @@ pub(super) struct Table {
 /// Magnitude of a figure in %, or the name of the series that is missing.
 pub(super) type Figure = Result<f64, &'static str>;
 
-/// Standing of figures among limits similar to those of a standard. No class is claimed, because neither the procedure nor the limits are those
-/// of the standard.
+/// Standing of figures among limits similar to those of a standard. No class is claimed, because procedure and limits differ from the standard.
 ///
 /// This type gets no further variant: figures are within a row, beyond all rows, or incomplete.
 ///

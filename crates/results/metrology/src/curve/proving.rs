@@ -103,7 +103,7 @@ pub struct ProvingFigures {
     pub f_0: Option<f64>,
     /// c: (i_300 − i_30)/X_N, in %; `None` without creep readings.
     pub c: Option<f64>,
-    /// Resolution, in the unit of the force.
+    /// Resolution, in the unit of the force; `None` if unknown.
     pub resolution: Option<f64>,
 }
 

@@ -49,7 +49,7 @@ pub enum GaugeError {
         /// Label of the trial.
         trial: String,
     },
-    /// A cell whose number of readings differs from that of most cells.
+    /// A cell whose number of readings differs from the number in most cells.
     #[error(
         "part {part}, operator {operator}: {have} readings, expected {expected} as in most cells; `--drop-incomplete` leaves such parts out"
     )]

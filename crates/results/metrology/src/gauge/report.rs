@@ -96,11 +96,11 @@ pub struct Component {
     pub percent_contribution: Option<f64>,
     /// Ratio to the total standard deviation, in per cent; `None` without variation.
     pub percent_study: Option<f64>,
-    /// 95 % confidence interval of `percent_study`, by generalized pivotal quantities.
+    /// 95 % confidence interval of `percent_study`, by generalized pivotal quantities; `None` without variation.
     pub percent_study_ci95: Option<[f64; 2]>,
     /// Six standard deviations divided by the tolerance, in per cent; `None` without a tolerance.
     pub percent_tolerance: Option<f64>,
-    /// 95 % confidence interval of `percent_tolerance`.
+    /// 95 % confidence interval of `percent_tolerance`; `None` without a tolerance.
     pub percent_tolerance_ci95: Option<[f64; 2]>,
 }
 
@@ -143,13 +143,13 @@ impl fmt::Display for NdcReason {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Ndc {
-    /// Unrounded value.
+    /// Unrounded value; `None` if undefined.
     pub value: Option<f64>,
-    /// Value rounded down, as AIAG counts distinct categories.
+    /// Value rounded down, as AIAG counts distinct categories; `None` if undefined.
     pub floor: Option<u64>,
-    /// 95 % confidence interval, by generalized pivotal quantities.
+    /// 95 % confidence interval, by generalized pivotal quantities; `None` if the value is undefined.
     pub ci95: Option<[f64; 2]>,
-    /// Reason for a missing value.
+    /// Reason for a missing value; `None` if the value is defined.
     pub undefined: Option<NdcReason>,
 }
 
@@ -299,9 +299,9 @@ pub struct GaugeReport {
     pub tolerance: Option<f64>,
     /// Number of distinct categories.
     pub ndc: Ndc,
-    /// AIAG class of the gauge.
+    /// AIAG class of the gauge; `None` for errors as readings, or without variation.
     pub band: Option<Band>,
-    /// AIAG classes of both ends of the gauge's confidence interval.
+    /// AIAG classes of both ends of the gauge's confidence interval; `None` if `band` is `None`.
     pub band_ci95: Option<[Band; 2]>,
     /// Number of draws of generalized pivotal quantities.
     pub draws: u32,

@@ -39,9 +39,9 @@ pub struct Limit {
     pub channel: String,
     /// Unit of the limit; must equal the unit of the score.
     pub unit: String,
-    /// Greatest accepted value.
+    /// Greatest accepted value; `None` for no upper limit.
     pub most: Option<f64>,
-    /// Least accepted value.
+    /// Least accepted value; `None` for no lower limit.
     pub least: Option<f64>,
     /// True if the whole interval must meet the limit, not only the value. Only in files of version 1.
     #[serde(default)]
@@ -130,7 +130,7 @@ impl LimitsFile {
         }
         let common = file.decision.clone().unwrap_or_default();
         match common.decision_rule() {
-            // Each limit may state it in its own unit.
+            // Each limit may state the missing setting in its own unit.
             Ok(_) | Err(ConformityError::MissingSetting { .. }) => {}
             Err(error) => return Err(LimitsError::File(format!("[decision]: {error}"))),
         }

@@ -31,7 +31,7 @@ pub struct Acceptance<'a> {
     pub study: &'a Study,
     /// One finding for each limit.
     pub findings: &'a [LimitCheck],
-    /// Date of the test: `2026-11-22`.
+    /// Date of the test: `2026-11-22`; `None` if not given.
     pub date: Option<&'a str>,
     /// Frames of the sensor, if available.
     pub pictures: Option<&'a Triple>,

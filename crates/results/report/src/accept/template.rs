@@ -127,7 +127,7 @@ fn limit(study: &Study, score: &Score) -> Option<String> {
         Better::Higher => at_least(room),
         Better::NearZero => {
             let reach = upwards((value.abs() + room).max(high.abs()).max(low.abs()));
-            // Zero alone leaves no room between two limits.
+            // A reach of zero leaves no room between two limits.
             if reach <= 0.0 {
                 return None;
             }

@@ -49,34 +49,34 @@ pub struct Measured {
     pub metric: String,
     /// Channel or plane: `Fz`, `Pxy`.
     pub channel: String,
-    /// Variant of the metric: `slope`.
+    /// Variant of the metric: `slope`; `None` for the metric itself.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub variant: Option<String>,
     /// Number in `unit`.
     pub value: f64,
-    /// Both ends of the interval of 95 %, in `unit`.
+    /// Both ends of the interval of 95 %, in `unit`; `None` without an interval.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ci95: Option<[f64; 2]>,
-    /// Method of the interval: `jackknife by point_id, G=32`.
+    /// Method of the interval: `jackknife by point_id, G=32`; `None` without an interval.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub method: Option<String>,
     /// Unit of number and interval.
     pub unit: String,
     /// Number of samples.
     pub n: u64,
-    /// Number of clusters behind the interval.
+    /// Number of clusters behind the interval; `None` if unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clusters: Option<u64>,
     /// Definition: `mae/1`.
     pub definition: String,
-    /// Protocol of the presses: `scene sha256:…`.
+    /// Protocol of the presses: `scene sha256:…`; `None` without a scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub protocol: Option<String>,
     /// Digest of the samples.
     pub samples: String,
     /// Digest of the bundle's manifest.
     pub bundle: String,
-    /// Address of the bundle.
+    /// Address of the bundle; `None` if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub url: Option<String>,
     /// Depth to which the number was verified when it was added: one of [`DEPTHS`].
@@ -88,7 +88,7 @@ pub struct Measured {
     /// Authors of the bundle.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub by: Vec<String>,
-    /// Licence of the bundle, as an SPDX identifier.
+    /// Licence of the bundle, as an SPDX identifier; `None` if not stated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub licence: Option<String>,
     /// Calibration certificates behind the labels.

@@ -1,4 +1,4 @@
-//! Definitions of metrics in columns that published numbers share with results of this program. A number with another definition needs another metric name.
+//! Definitions that a published number must have to share a metric name, and thus a table column, with results of this program.
 
 /// Metrics, with their channel if it matters, and the definition of published numbers.
 const DEFINITIONS: &[(&str, &str)] = &[

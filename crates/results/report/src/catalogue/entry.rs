@@ -26,17 +26,17 @@ pub struct Sensor {
     /// IMM (intensity mapping), MDM (marker displacement) or MFM (modality fusion) for a sensor with a camera; `magnetic`, `capacitive`, `resistive`
     /// or `optical` for taxels.
     pub mechanism: Vec<String>,
-    /// Shape of the sensor.
+    /// Shape of the sensor; `None` if unknown.
     pub shape: Option<String>,
-    /// True if no ambient light reaches the camera.
+    /// True if no ambient light reaches the camera; `None` if unknown.
     pub opaque: Option<bool>,
-    /// True if the gel has markers.
+    /// True if the gel has markers; `None` if unknown.
     pub markers: Option<bool>,
     /// Remark on the product that the published numbers describe, if no source states the product.
     pub identity: Option<String>,
-    /// Limits of depth, force and radius.
+    /// Limits of depth, force and radius; `None` if unknown.
     pub limits: Option<Limits>,
-    /// Outer dimensions.
+    /// Outer dimensions; `None` if unknown.
     pub size: Option<Size>,
     /// Prices with their dates.
     #[serde(default, rename = "price")]
@@ -135,7 +135,7 @@ impl Sensor {
             .flat_map(move |origin| self.rows(origin))
     }
 
-    /// Source with the id `id`.
+    /// Source with the id `id`; `None` for an unknown id.
     pub fn source(&self, id: &str) -> Option<&Source> {
         self.sources.iter().find(|source| source.id == id)
     }

@@ -33,7 +33,7 @@ pub struct Price {
     pub read_from: String,
     /// Date at which the price was seen.
     pub seen: String,
-    /// Remarks for readers.
+    /// Remarks for readers; `None` for no remark.
     pub note: Option<String>,
 }
 

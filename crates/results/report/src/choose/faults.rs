@@ -14,7 +14,7 @@ pub(super) fn take_apart(remaining: &mut Vec<&Sensor>, needs: &[Need]) -> Vec<Dr
     let results: Vec<&FaultResult> = remaining.iter().filter_map(result).collect();
     let bases: Vec<String> = results.iter().map(|of| of.basis()).collect();
     let count = |basis: &String| bases.iter().filter(|other| *other == basis).count();
-    // Reversed, because of equal counts the last is taken.
+    // Reversed, because `max_by_key` returns the last of equal counts.
     let tested = results.iter().zip(&bases).rev();
     let most = tested.max_by_key(|(_, basis)| count(basis));
     let Some((kept, basis)) = most.filter(|_| ranks_by_faults) else {

@@ -236,7 +236,7 @@ impl Property {
         }
     }
 
-    /// Ratio of `value` to the best of `sensors`, 0 to 1; inverted if lower is better.
+    /// Ratio of `value` to the best of `sensors`, 0 to 1; inverted if lower is better. `None` if greater is better and no number is above 0.
     pub(super) fn share(self, value: f64, sensors: &[&Sensor]) -> Option<f64> {
         let known = sensors.iter().filter_map(|sensor| self.of(sensor));
         if self.better() == Better::Lower {

@@ -77,7 +77,7 @@ fn ground(study: &Study) -> String {
     let split = of("split").map(|split| format!("split {split}"));
     let seed = of("seed").map(|seed| format!("seed {seed}"));
     let part = of("part").map(|part| format!("part {part}"));
-    // Predictions always differ, so the digest is that of the truth.
+    // Predictions always differ, so the description has the digest of the truth.
     let truth = study.made.truth.as_ref().map(|digest| {
         let short: String = digest.chars().take(SHORT).collect();
         format!("of the truth {short}")

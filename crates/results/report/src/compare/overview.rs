@@ -45,7 +45,7 @@ pub struct Decision {
     pub decided_by: Option<String>,
     /// Better direction of the values.
     pub better: Better,
-    /// Position of the study that is significantly better than all others.
+    /// Position of the study that is significantly better than all others; `None` if there is no such study.
     pub winner: Option<usize>,
     /// Positions of the studies with exactly equal best values; empty without a tie.
     pub tied: Vec<usize>,
@@ -224,7 +224,7 @@ impl Comparison {
                 let p = p_words(p);
                 let alike = self.equivalent(&equals, &equal);
                 match (losers.len(), open.len()) {
-                    // A row has one decision, so an equivalence is not also reported as undecided.
+                    // A row has one decision, so an equivalence is not reported as undecided too.
                     (0, 0) if !equal.is_empty() => (
                         None,
                         format!("no winner; the best value, {start}, is {alike}"),

@@ -144,7 +144,7 @@ impl Panel {
         canvas.path(std::mem::take(run), stroke);
     }
 
-    /// Draws the band between two curves. Levels without a band interrupt it.
+    /// Draws the band between two curves. Levels without a band interrupt the band.
     pub(crate) fn band(
         &self,
         levels: impl Iterator<Item = (f64, Option<[f64; 2]>)>,

@@ -116,7 +116,7 @@ pub(super) fn colour_bar(
     canvas.label(Label::new(at, label, Anchor::Middle));
 }
 
-/// Range from the 2nd to the 98th percentile. Single extreme cells do not affect the range.
+/// Range from the 2nd to the 98th percentile. Single extreme cells do not affect the range. `None` for no value.
 pub(super) fn inner_range(values: &[Vec<Option<f64>>]) -> Option<[f64; 2]> {
     let mut known: Vec<f64> = values.iter().flatten().flatten().copied().collect();
     known.sort_by(f64::total_cmp);

@@ -30,7 +30,7 @@ pub(super) fn levels(curve: &Curve) -> Vec<Level> {
 
 /// One sheet for each channel for the curve `variant` of `metric`, with the name of its y axis.
 pub(super) fn sheets(studies: &[Study], metric: &str, x: &str, y: &str, ways: Ways) -> Vec<Sheet> {
-    // A level shows the bias, which is best near zero; the metric is the greatest of them.
+    // A level shows a bias, which is best near zero; the metric is the greatest bias.
     let directed_by = match metric {
         "bias_level" => "bias",
         other => other,

@@ -33,7 +33,7 @@ pub fn model_bench(bench: &ModelBench) -> Option<Figure> {
     })
 }
 
-/// Draws one panel for each channel. Also returns a sentence on the Pareto fronts.
+/// Draws one panel for each channel. Also returns a sentence on the Pareto fronts. `None` without channels.
 fn draw(bench: &ModelBench, time: &str) -> Option<(Canvas, String)> {
     let channels = bench.channels();
     if channels.is_empty() {
@@ -194,7 +194,7 @@ fn front(dots: &[Dot<'_>], panel: &Panel, canvas: &mut Canvas) {
     corners.sort_by(|left, right| left[0].total_cmp(&right[0]));
     let mut steps: Vec<[f64; 2]> = Vec::new();
     for corner in corners {
-        // Step line, because between two models only the faster one is available.
+        // Step line, because between two models only the faster model is available.
         if let Some([_, y]) = steps.last().copied() {
             steps.push([corner[0], y]);
         }

@@ -51,7 +51,7 @@ pub(super) struct Words<'a> {
     pub(super) description: String,
 }
 
-/// Draws panels, `columns` in a row, below one legend.
+/// Draws panels, `columns` in a row, below one legend; `None` without panels.
 pub(super) fn draw(
     sheets: &[Sheet],
     studies: &[Study],

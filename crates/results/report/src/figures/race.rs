@@ -17,7 +17,7 @@ pub struct Race {
     pub gain: String,
     /// Name of the vertical axis, where less is better: `ns a pair`. The axis is logarithmic.
     pub cost: String,
-    /// Lower bound of the cost, with the name of the bound.
+    /// Lower bound of the cost, with the name of the bound; `None` if unknown.
     pub floor: Option<(f64, String)>,
     /// Drawn points.
     pub points: Vec<RacePoint>,

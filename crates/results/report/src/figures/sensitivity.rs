@@ -10,7 +10,7 @@ use taceva_results::Value;
 
 use super::heat::{Heat, draw as heat, inner_range};
 
-/// Maps of all sensors on one logarithmic colour scale.
+/// Maps of all sensors on one logarithmic colour scale; `None` without maps.
 pub(super) fn on_one_scale(studies: &[Study], room: Option<f64>) -> Option<Figure> {
     let names = crate::names::names(studies);
     let maps: Vec<(&str, &Map, Unit)> = studies

@@ -130,7 +130,7 @@ fn places(studies: &[Study]) -> String {
     }
 }
 
-/// Number of presses of the recordings, and number of contact places of the scored samples.
+/// Number of presses in the recordings, and number of contact places in the scored samples, as text.
 fn pressed(studies: &[Study]) -> String {
     let presses = counted_span(studies, "press", |study| whole(study.made.presses));
     let points = counted_span(studies, "contact point", points);
@@ -287,7 +287,7 @@ fn scope(studies: &[Study]) -> String {
     )
 }
 
-/// Name in the plural of the clusters that intervals leave out: `contact points`, `groups by object`, `samples`.
+/// Plural name of the clusters that intervals leave out: `contact points`, `groups by object`, `samples`.
 pub(super) fn clusters(studies: &[Study]) -> String {
     let are_samples = |study: &Study| {
         let intervals = study.scores.iter();

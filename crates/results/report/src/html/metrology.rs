@@ -91,7 +91,7 @@ fn budget(study: &Study) -> Result<Budget, String> {
         Err(_) => evidence,
     };
     let budgets = text.and_then(|text| text.budgets(&evidence, None::<MonteCarlo>));
-    // The text has no lines that a reader could find.
+    // Omits the line of the error, because the reader does not see the text.
     let budgets = budgets.map_err(|error| format!("{}: {}", shown(name), error.problem))?;
     let first = budgets.into_iter().next();
     let mut first = first.ok_or_else(|| "its labels have no median".to_owned())?;

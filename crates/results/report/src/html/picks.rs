@@ -92,7 +92,7 @@ fn apart<'a>(
     found
 }
 
-/// Range of the true values of predicted samples.
+/// Range of the true values of predicted samples; `None` if fewer than two values differ.
 fn range(channel: SampleChannel<'_>) -> Option<f64> {
     let pairs = (0..channel.rows()).filter_map(|row| channel.pair(row));
     let [low, high] = crate::figure::extent(pairs.map(|[truth, _]| truth))?;

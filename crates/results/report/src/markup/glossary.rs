@@ -21,13 +21,13 @@ pub(crate) fn glossary<'a>(ids: impl Iterator<Item = &'a str>) -> Markup {
     }
 }
 
-/// Folded glossary. A link to a metric unfolds it.
+/// Folded glossary. A link to a metric unfolds the glossary.
 pub(crate) fn folded_glossary<'a>(ids: impl Iterator<Item = &'a str>) -> Markup {
     let holds = "what each metric means, its unit and its definition";
     fold("glossary", "Glossary", holds, &glossary(ids))
 }
 
-/// Name of a metric or variant as a link to its glossary entry, with its direction sign; plain text if the catalogue lacks it.
+/// Name of a metric or variant as a link to its glossary entry, with its direction sign; plain text if the catalogue lacks the name.
 pub(crate) fn metric_link(id: &str) -> Markup {
     html! { (link(id)) (sign(id)) }
 }

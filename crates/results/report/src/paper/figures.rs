@@ -22,7 +22,7 @@ struct Quantity {
     digits: Digits,
 }
 
-/// Table of each figure with numbers of ours and of the study, with the name of the figure.
+/// One table for each figure, with our numbers, the numbers of the study, and the name of the figure.
 pub(super) fn all(studies: &[Study], scores: &ScoreTable) -> Vec<(String, Table)> {
     let sheet = Sheet { studies, scores };
     let quantity = |name: &str, metric, channel, digits| Quantity {

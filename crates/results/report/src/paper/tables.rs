@@ -17,7 +17,7 @@ pub(super) struct Made {
     pub(super) needs: &'static str,
 }
 
-/// Variables of force, then of position, in the order of the tables of calibration and lighting.
+/// Force variables, then position variables: the order in the calibration and lighting tables.
 const BLOCKS: [[&str; 2]; 2] = [["Fxy", "Fz"], ["Pxy", "Pz"]];
 /// Light scenes.
 pub(super) const SCENES: [&str; 4] = ["S1", "S2", "S3", "S4"];

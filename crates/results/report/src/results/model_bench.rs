@@ -79,7 +79,7 @@ pub struct ModelRow {
     pub latency_s: f64,
     /// Error of each channel on the test part; empty if the model could not be fitted.
     pub errors: Vec<ChannelError>,
-    /// Reason why the model could not be fitted or scored.
+    /// Reason why the model could not be fitted or scored; `None` for a scored model.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub failed: Option<String>,
 }
@@ -161,7 +161,7 @@ pub(super) fn is_simulated(source: &str) -> bool {
 }
 
 impl ModelRow {
-    /// Error of one channel.
+    /// Error of one channel; `None` for an unknown channel.
     pub fn error(&self, channel: &str) -> Option<&ChannelError> {
         self.errors.iter().find(|error| error.channel == channel)
     }

@@ -15,11 +15,11 @@ pub(super) fn entries(provenance: &Provenance) -> Vec<(String, String)> {
     });
     let presses = provenance.presses.iter();
     let presses = presses.map(|(digest, counts)| format!("{digest} {}", pairs(counts)));
-    // The parts of a cross-validation are those of its folds.
+    // In a cross-validation, each fold has its own parts, so a single part is omitted.
     let predicted_once = provenance.predicted_once();
     let part = provenance.part.as_ref();
     let part = part.filter(|_| predicted_once.is_none()).cloned();
-    // Results of a bench in the program and of tables name no instrument at all.
+    // Results of the built-in bench and of tables have no instruments.
     let traceability = match provenance.traceability.is_empty() {
         true => String::new(),
         false => traceability_line(provenance),

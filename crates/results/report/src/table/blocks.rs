@@ -9,7 +9,7 @@ pub(crate) const HEAD_PT: f64 = 50.0;
 /// Font size of values, in points. [`SMALL_SIZE`] is the size of heads and of the line below a value.
 pub(crate) const VALUE_SIZE: f64 = 8.0;
 pub(crate) const SMALL_SIZE: f64 = 7.0;
-/// Ratio of the width of bold digits to that of regular digits.
+/// Ratio of the width of bold digits to the width of regular digits.
 const BOLD: f64 = 1.2;
 
 impl Table {

@@ -9,7 +9,7 @@ use super::Words;
 pub struct Column {
     /// Name in the head of the column.
     pub name: Words,
-    /// Common unit of the cells.
+    /// Common unit of the cells; `None` without a common unit.
     pub unit: Option<String>,
     /// Better direction of the cells.
     pub direction: Direction,
@@ -27,7 +27,7 @@ pub enum Direction {
     Is(Better),
     /// Direction by the metric or variant in this column. Readers see a sign after the name; programs get an additional column `better`.
     OfMetrics,
-    /// Direction by [`Row::better`](super::Row::better), shown like that of [`Direction::OfMetrics`].
+    /// Direction by [`Row::better`](super::Row::better), shown as for [`Direction::OfMetrics`].
     OfRows,
 }
 

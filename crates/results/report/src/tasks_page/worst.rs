@@ -8,7 +8,7 @@ use crate::html::{Picture, picture_address};
 use crate::number::numeral;
 use crate::table::{Cell, Table};
 
-/// Table of the samples with the greatest errors of a task.
+/// Table of the samples with the greatest errors of a task; `None` without such samples.
 pub(super) fn table(task: &TaskScores, _at: usize) -> Option<Markup> {
     let worst = &task.evidence.worst;
     if worst.is_empty() {

@@ -178,7 +178,7 @@ impl Margins {
             Counted::AllNames => true,
         };
         let classes = self.of.iter().filter(counts).count() as u64;
-        // A class that is nowhere has no F1 and adds 0 to a mean of all names.
+        // A class without true or predicted samples has no F1 and adds 0 to a mean of all names.
         let of = self.of.iter().filter(counts).filter(|of| of.is_seen());
         match self.n {
             0 => Err(Undefined::Empty),

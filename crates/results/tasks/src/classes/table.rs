@@ -134,7 +134,7 @@ impl Confusion<'_> {
                 .beside(of.hits, of.truth),
         ];
         for score in &mut scores {
-            // A thousand classes of a thousand clusters would take much memory.
+            // Left-out scores of a thousand classes and clusters would take much memory.
             score.estimate.left_out = Vec::new();
         }
         scores
@@ -219,7 +219,7 @@ impl Margins {
         (self.n > 0).then(|| ratio(u128::from(self.most()), u128::from(self.n)))
     }
 
-    /// F1 of the class at `position` if all samples are predicted as this class: 2π / (1 + π).
+    /// F1 of the class at `position` if all samples are predicted as this class: 2π / (1 + π); `None` for no sample.
     fn f1_of_constant(&self, position: usize) -> Option<f64> {
         let truth = self.of[position].truth;
         (self.n > 0).then(|| ratio(2 * u128::from(truth), u128::from(self.n + truth)))
@@ -237,7 +237,7 @@ impl Margins {
         self.f1_of_most(self.most(), self.n)
     }
 
-    /// `weight` / `by` × F1 of the most frequent class, if all samples are predicted as this class.
+    /// `weight` / `by` × F1 of the most frequent class, if all samples are predicted as this class; `None` for no sample.
     fn f1_of_most(&self, weight: u64, by: u64) -> Option<f64> {
         let f1 = Quotient {
             above: 2 * u128::from(self.most()) * u128::from(weight),

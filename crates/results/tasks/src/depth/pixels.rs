@@ -13,7 +13,7 @@ pub(super) const COUNTS: usize = 10;
 /// Totals of a cluster of maps.
 pub(super) type DepthTotals = Totals<SUMS, COUNTS>;
 
-/// Indices of the sums and counts of an area: all valid pixels, or those with contact in the truth.
+/// Indices of the sums and counts of an area: all valid pixels, or valid pixels with contact in the truth.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Area {
     /// Sum of |t − p|, mm; Σ(t − p) and Σ(t − p)² follow.
@@ -49,7 +49,7 @@ pub(super) const MAP_RMSE: usize = 9;
 pub(super) const MAP_BIAS: usize = 10;
 /// Index of the sum of the greatest errors of maps, mm.
 pub(super) const MAP_MAX: usize = 11;
-/// Index of the sum of the ratios of areas of maps.
+/// Index of the sum of area ratios over maps.
 pub(super) const MAP_IOU: usize = 12;
 /// Index of the sum of angles between normals, degrees.
 pub(super) const ANGLES: usize = 13;
@@ -74,7 +74,7 @@ pub(super) const ALL_MAPS: usize = 9;
 /// Totals of one pair of maps, and their greatest errors.
 pub(super) struct MapSums {
     pub(super) totals: DepthTotals,
-    /// Greatest |t − p| of all valid pixels and of those in contact, mm.
+    /// Greatest |t − p| over all valid pixels and over pixels in contact, mm.
     pub(super) greatest: [f64; 2],
 }
 

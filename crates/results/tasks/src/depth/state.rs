@@ -28,11 +28,11 @@ use crate::totals::checked_counts;
 pub struct DepthState {
     pub(super) task: DepthTask,
     pub(super) clusters: ByCluster<DepthTotals>,
-    /// Greatest errors over all valid pixels and over those in contact, mm.
+    /// Greatest errors over all valid pixels and over pixels in contact, mm.
     pub(super) greatest: [f64; 2],
     /// Totals of the constant prediction; for normals, of a flat surface.
     pub(super) constant: DepthTotals,
-    /// Greatest errors of the constant prediction over all valid pixels and over those in contact, mm.
+    /// Greatest errors of the constant prediction over all valid pixels and over pixels in contact, mm.
     pub(super) greatest_of_constant: [f64; 2],
 }
 

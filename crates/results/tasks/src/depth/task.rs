@@ -101,12 +101,12 @@ impl DepthTask {
         self.gate_mm
     }
 
-    /// Distance of neighbouring columns and rows, mm.
+    /// Distance of neighbouring columns and rows, mm; `None` if not given.
     pub(super) fn pixel_mm(&self) -> Option<[f64; 2]> {
         self.pixel_mm
     }
 
-    /// Constant to beat.
+    /// Constant to beat; `None` if not given.
     pub(super) fn constant(&self) -> Option<&DepthMap> {
         self.constant.as_ref()
     }

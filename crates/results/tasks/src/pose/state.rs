@@ -13,9 +13,9 @@ use crate::error::TaskError;
 use crate::totals::{Totals, checked_counts};
 use crate::vector::minus;
 
-/// Index of the sum of lengths of differences of translations, mm.
+/// Index of the sum of distances between both translations, mm.
 pub(super) const TRANSLATION: usize = 0;
-/// Index of the sum of absolute differences along x, mm; those along y and z follow.
+/// Index of the sum of absolute differences along x, mm; the sums along y and z follow.
 pub(super) const AXES: usize = 1;
 /// Index of the sum of angles, degrees.
 pub(super) const ROTATION: usize = 4;
@@ -25,7 +25,7 @@ pub(super) const ADD: usize = 5;
 pub(super) const ADD_S: usize = 6;
 /// Index of the number of poses.
 pub(super) const POSES: usize = 0;
-/// Index of the number of right bins along x; those along y and of yaw follow.
+/// Index of the number of right bins along x; the numbers along y and of yaw follow.
 pub(super) const RIGHT: usize = 1;
 
 /// Totals of a cluster of poses.

@@ -71,7 +71,7 @@ impl Losses {
         }
     }
 
-    /// The losses without those of `part`, which must be included.
+    /// The losses minus the losses of `part`, which must be included.
     pub(super) fn without(&self, part: &Losses) -> Losses {
         let mut left = self.clone();
         left.n -= part.n;
@@ -128,7 +128,7 @@ impl Losses {
         }
     }
 
-    /// Brier score with the class shares π as probabilities: π (1 − π), summed over the classes if there are more than two.
+    /// Brier score with the class shares π as probabilities: π (1 − π), summed over the classes if there are more than two; `None` for no sample.
     pub(super) fn brier_of_shares(&self, of_two: Option<usize>) -> Option<f64> {
         let square = |count: &u64| Quotient {
             above: u128::from(*count) * u128::from(self.n - count),
@@ -144,7 +144,7 @@ impl Losses {
         }
     }
 
-    /// Mean logarithmic loss with the class shares π as probabilities: −Σ π ln π.
+    /// Mean logarithmic loss with the class shares π as probabilities: −Σ π ln π; `None` for no sample.
     pub(super) fn log_loss_of_shares(&self) -> Option<f64> {
         let seen = self.classes.iter().filter(|count| **count > 0);
         let terms = seen.map(|count| {

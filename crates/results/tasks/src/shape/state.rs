@@ -156,7 +156,7 @@ impl ShapeState {
         Ok(self)
     }
 
-    /// Scores of all pairs of clouds: means of the scores of pairs.
+    /// Scores of the state: means over all pairs of clouds.
     #[must_use]
     pub fn scores(&self) -> Vec<TaskScore> {
         let clusters = Clusters::of(&self.clusters);

@@ -105,7 +105,7 @@ fn fit(_: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
     counts.sort_unstable();
     counts.dedup();
     let one = |count: &usize| {
-        // The library rejects components after everything is explained: retries with fewer.
+        // The library fails on components beyond the explained variance: retries with fewer components.
         let mut outcome = Err(ModelError::new(ErrorKind::InvalidArgument, NAME));
         for tried in (1..=*count).rev() {
             interrupted(task.progress)?;

@@ -104,7 +104,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
     fit,
 };
 
-/// Converts a serialised tree to nodes, root first.
+/// Converts a serialised tree to nodes, root first; `None` for another form.
 fn tree(root: &Value) -> Option<Tree> {
     let mut nodes = Tree::new();
     grow(root, &mut nodes)?;

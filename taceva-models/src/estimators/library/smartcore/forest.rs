@@ -162,7 +162,7 @@ grow!(
     ExtraTreesRegressorParameters
 );
 
-/// Converts a serialised forest to trees.
+/// Converts a serialised forest to trees; `None` for another form.
 fn trees(forest: &Value) -> Option<Vec<Tree>> {
     let trees = forest.get("forest_regressor")?.get("trees")?.as_array()?;
     let trees = trees.iter().map(|tree| {

@@ -43,7 +43,7 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// Next character that is not blank.
+    /// Next character that is not blank; `None` at the end.
     fn peek(&mut self) -> Option<char> {
         while self
             .letters

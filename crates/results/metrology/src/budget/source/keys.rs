@@ -60,7 +60,7 @@ impl Reader<'_> {
         let many = of.s.is_some() || of.from.is_some();
         let bent = is_shape("curvilinear_trapezoid");
         let numbers = "u`, `U`, `s` or `half_width";
-        // Key, whether it is there and may be, and its owner.
+        // Key, true if the key is present, true if it is allowed, and the key to which it belongs.
         let keys = [
             ("k", of.k.is_some(), expanded, "U"),
             ("p", of.p.is_some(), expanded, "U"),

@@ -69,7 +69,7 @@ impl Acceptance<'_> {
         self.findings.iter().any(|check| check.process.is_some())
     }
 
-    /// Table of the uncertainty and coverage factor of each value, and of the rule of its limit.
+    /// Table with the uncertainty, the coverage factor and the decision rule for each value.
     pub(super) fn uncertainties(&self) -> Table {
         let names = [
             "channel", "value", "unit", "u", "nu", "k", "U", "p_c", "rule",
