@@ -60,7 +60,7 @@ impl<'a> FileOpener<'a> {
         Ok(opened.map(|opened| opened.device.holds().to_vec()))
     }
 
-    /// Opens the lighting `device`, and returns the names of its scenes. The light does not change.
+    /// Opens the lighting `device`, and returns the names of its scenes; `None` without a `device`. The light does not change.
     ///
     /// # Errors
     /// Errors of [`held`](FileOpener::held).
@@ -145,7 +145,7 @@ impl<'a> FileOpener<'a> {
         self.opened(registry, device)
     }
 
-    /// Opens a device whose selector was already checked.
+    /// Opens a device whose selector was already checked; `None` without a device.
     fn opened<D: Device + ?Sized>(
         &self,
         registry: &Registry<D>,
