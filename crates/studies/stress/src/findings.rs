@@ -52,7 +52,7 @@ pub(crate) fn recovers(severities: &[SeverityReport], channel: &str, mean: &Esti
     }
 }
 
-/// Errors that a fault of pictures or signals at least doubles without a finding in the checks of these.
+/// Errors that a fault of pictures or signals at least doubles, although no check of pictures or signals finds the fault.
 pub(crate) fn unnoticed(faults: &[FaultReport]) -> Vec<Unnoticed> {
     let of_inputs = faults.iter().filter(|fault| !fault.keeps_inputs());
     let hidden = of_inputs.flat_map(|fault| {

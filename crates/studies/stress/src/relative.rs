@@ -76,7 +76,7 @@ impl<'a> Excess<'a> {
         })
     }
 
-    /// Sum over the severities of the mean error less that without a fault; `None` for no errors.
+    /// Sum over the severities of the error that the fault adds to the mean error without a fault; `None` for no errors.
     fn sum(&self) -> Option<f64> {
         let clean = self.clean.mean()?;
         let added = self.cells.iter().map(|of| Some(of.mean()? - clean));
@@ -125,8 +125,8 @@ fn ratio(own: &Excess<'_>, reference: &Excess<'_>) -> Estimate {
     Estimate::new(added / by, interval(added / by, &sizes, left_out))
 }
 
-/// 95 % interval of `value` by the jackknife over clusters. `left_out` has the value without a cluster, and `sizes` the number of all errors divided by that of
-/// each cluster.
+/// 95 % interval of `value` by the jackknife over clusters. `left_out` returns the value without a cluster. `sizes` has the number of all errors
+/// divided by the number of errors of each cluster.
 ///
 /// # Reference
 /// Busing, Meijer and van der Leeden, Delete-m jackknife for unequal m, Statistics and Computing 9 (1999).
