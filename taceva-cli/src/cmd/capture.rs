@@ -295,7 +295,7 @@ fn summarise(
             "next: taceva check {path}, then taceva evaluate {path} --model ridge"
         ));
     } else {
-        // A transducer that repeats one number from its first reading is not refused at rest.
+        // A transducer that repeats one number from its first reading on is not detected at rest.
         stderr::say(format_args!(
             "warning: Fz never exceeded 0.1 N, so no contact was recorded; if the gel was pressed, check the transducer, its cable and its amplifier"
         ));
