@@ -145,7 +145,7 @@ fn columns(reports: &[EvaluationReport], published: &[Vec<String>]) -> Vec<Colum
         .collect()
 }
 
-/// Scores without variants. Scores of planes replace those of their axes.
+/// Scores without variants. Scores of planes replace the scores of their axes.
 fn headlines(report: &EvaluationReport) -> Vec<ScoreLine<'_>> {
     let lines = lines(&report.scores);
     let has = |name: &str, channel: &str| {

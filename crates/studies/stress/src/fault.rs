@@ -7,7 +7,7 @@ use crate::taxels::TaxelChange;
 /// Random numbers of a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
-    /// None: the same change in every picture.
+    /// No random numbers: the same change in every picture.
     Fixed,
     /// Places drawn once: the same pixels in every picture.
     Drawn,

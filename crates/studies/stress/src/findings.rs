@@ -1,4 +1,4 @@
-//! Findings in the scores of faults: where skill ends, what a new untouched picture removes, and what remains unnoticed.
+//! Findings in the scores of faults: the end of skill, the error that a new untouched picture removes, and errors that no check finds.
 
 use taceva_metrics::elementary::logarithm;
 

@@ -1,4 +1,4 @@
-//! Errors that faults add, relative to those of a reference model.
+//! Errors that faults add, relative to the errors of a reference model.
 
 use taceva_dataset::Dataset;
 use taceva_evaluate::{EvaluateError, Work, model_provenance};
@@ -13,7 +13,7 @@ use crate::report::{ByChannel, FaultReport, StressReport};
 use crate::setup::StressRequest;
 use crate::study::stress_beside;
 
-/// Adds to `report` its errors relative to those of the model `reference`. [`stress_beside`](crate::stress_beside) made `report` of the same request.
+/// Adds to `report` its errors relative to the errors of `reference`. [`stress_beside`](crate::stress_beside) made `report` of the same request.
 ///
 /// # Errors
 /// Errors of [`stress`](crate::stress()), and [`EvaluateError::Request`] if the reference model scores other samples.

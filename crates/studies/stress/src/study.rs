@@ -302,7 +302,7 @@ impl Results<'_> {
         }
     }
 
-    /// Codes of the checks that find the fault in every draw, and nothing without it.
+    /// Codes of the checks that find the fault in every draw, and find nothing without the fault.
     fn check(&self, at: usize) -> Vec<&'static str> {
         let draws = &self.found.cells[at].draws;
         let of_draw = |draw: usize| {

@@ -49,7 +49,7 @@ pub enum SweepError {
     Changed {
         /// Path of the file or folder, or name of the model.
         path: PathBuf,
-        /// Description of what changed.
+        /// Description of the change.
         problem: String,
     },
     /// An input or output operation failed.

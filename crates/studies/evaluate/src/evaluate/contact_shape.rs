@@ -8,7 +8,7 @@ use taceva_tasks::{TaskScores, TaskState};
 use crate::error::EvaluateError;
 use crate::predict::Predicted;
 
-/// Column with the clusters: the depths of one press are at one place.
+/// Column with the clusters. All depths of one press are at one place.
 const CLUSTER: &str = "point_id";
 /// Channels of the place and the depth of the ball.
 const PLACE: [&str; 3] = ["Px", "Py", "Pz"];

@@ -1,4 +1,4 @@
-//! Compares columns other than channels: those of a table of samples with those of the recording.
+//! Compares the columns other than channels in a table of samples with the same columns of the recording.
 
 use taceva_core::{Field, shown};
 use taceva_dataset::Dataset;

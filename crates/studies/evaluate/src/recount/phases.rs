@@ -129,7 +129,7 @@ fn is_mixed(plan: &MetricPlan) -> bool {
     kinds.any(|kind| Some(kind) != first)
 }
 
-/// Sums of the metrics of `plan` over the rows of the phase of `state`; `None` if they differ from those of `state`.
+/// Sums of the metrics of `plan` over the rows of the phase of `state`; `None` if they differ from the sums in `state`.
 fn sums(
     state: &ReadState,
     plan: &MetricPlan,

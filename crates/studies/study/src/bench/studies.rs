@@ -163,7 +163,7 @@ pub fn studies(
     })
 }
 
-/// Progress without the stages of a study, whose steps would replace those of the benchmark.
+/// Progress without the stages of a study, whose steps would replace the steps of the benchmark.
 struct WholeStudies<'a>(&'a dyn Progress);
 
 impl Progress for WholeStudies<'_> {

@@ -193,7 +193,7 @@ fn subtable<'a>(table: &'a mut Table, key: &str) -> Option<&'a mut Table> {
     table.entry(key).or_insert_with(empty).as_table_mut()
 }
 
-/// `error` without its line, because the text is not that of the user.
+/// `error` without its line, because the user did not write this text.
 fn unplaced(error: StudyError) -> StudyError {
     match error {
         StudyError::Acquire(AcquireError::Scene(mut scene)) => {
