@@ -139,7 +139,7 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
     })
 }
 
-/// Prints the faults of plugins that failed, each with its reason. True if there is one.
+/// Prints the faults of plugins that failed, each with its reason. True if at least one failed.
 pub(super) fn say_failed(report: &StressReport, before: &str) -> bool {
     for failed in &report.failed {
         stderr::say(format_args!(

@@ -105,7 +105,7 @@ impl Fault {
         }
     }
 
-    /// True if the fault is one of markers.
+    /// True if the fault changes markers.
     pub(crate) fn is_of_markers(&self) -> bool {
         matches!(self.effect, Effect::Markers(_))
     }

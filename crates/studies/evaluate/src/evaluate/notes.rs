@@ -13,7 +13,7 @@ use crate::rows::DataPart;
 use taceva_results::ModelProvenance;
 
 impl Target {
-    /// True if the model was fitted on the part.
+    /// True if the model was fitted on samples of the part.
     pub(super) fn is_seen(&self) -> bool {
         let divided = self.divided.as_ref();
         let is_fitted = divided.is_some_and(|divided| !divided.rows(DataPart::Train).is_empty());
