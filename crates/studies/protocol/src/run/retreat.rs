@@ -96,7 +96,7 @@ impl Tip<'_> {
         done
     }
 
-    /// True if two readings of the resting tip are healthy and differ, as with a live transducer.
+    /// True if two readings of the resting tip are healthy and show a live transducer.
     fn is_trustworthy(&mut self) -> bool {
         if self.release().is_err() || self.find_pose().is_err() {
             return false;

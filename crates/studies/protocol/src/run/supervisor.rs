@@ -195,7 +195,7 @@ impl Supervisor {
         }
     }
 
-    /// True if two readings of a resting tip differ, as with a live transducer.
+    /// True if two readings of a resting tip show a live transducer: values differ, or for a transducer with coarse steps, numbers or times differ.
     pub(super) fn is_live(&self, one: &Look, other: &Look) -> bool {
         match (one.number, other.number) {
             (Some(one), Some(other)) if one == other => false,
