@@ -22,7 +22,7 @@ pub(super) fn check_model_file(path: &Path) -> anyhow::Result<()> {
     check_file_of("--model", path)
 }
 
-/// Refuses a model file of this option that does not exist.
+/// Refuses a model file of `option` that does not exist.
 fn check_file_of(option: &str, path: &Path) -> anyhow::Result<()> {
     match path.is_file() {
         true => Ok(()),

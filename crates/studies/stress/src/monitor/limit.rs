@@ -21,13 +21,13 @@ struct Rule {
     rank: usize,
 }
 
-/// Most of the newest pictures are beyond the limit.
+/// Rule: most of the newest pictures are beyond the limit.
 const MOST: Rule = Rule {
     beyond: 19,
     reach: 19,
     rank: 20,
 };
-/// Some of the newest pictures are far beyond all that set the limit.
+/// Rule: a few of the newest pictures are far beyond every picture that set the limit.
 const SOME: Rule = Rule {
     beyond: 3,
     reach: 1,
@@ -60,7 +60,7 @@ impl Limited {
         Limited::new(MOST, least)
     }
 
-    /// A limit that only strange pictures exceed, three of the newest after a change.
+    /// A limit that at least three of the newest pictures exceed after a change.
     pub(super) fn by_some(least: f64) -> Limited {
         Limited::new(SOME, least)
     }
@@ -115,7 +115,7 @@ impl Limited {
         sorted.sort_unstable_by(f64::total_cmp);
         let count = sorted.len();
         let median = sorted[count / 2];
-        // Number that is exceeded or reached by enough pictures of a run.
+        // Excess that `reach` pictures of the run exceed or reach.
         let runs = self.learnt.windows(WINDOW).map(|run| {
             let mut run = run.to_vec();
             run.sort_unstable_by(f64::total_cmp);
@@ -125,7 +125,7 @@ impl Limited {
         let excess = self.least.max(RUNS * farthest);
         Limit {
             median,
-            // An equal share of the pictures is beyond the limit, whatever their number.
+            // The share of untouched pictures beyond the limit does not depend on the number of pictures.
             limit: sorted[count - (self.rule.rank * count / LEARNT).max(1)].max(median + excess),
         }
     }

@@ -33,7 +33,7 @@ pub(super) fn of_scenes(before: &str, now: &str) -> Option<String> {
         })
 }
 
-/// First value that differs between two texts of plans, `studies.0.seed was 1 and is now 2`; `None` for equal plans.
+/// First value that differs between two texts of plans, such as `studies.0.seed was 1 and is now 2`; `None` for equal plans.
 pub(super) fn of_plans(before: &str, now: &str) -> Option<String> {
     let read = |text: &str| serde_json::from_str::<Value>(text).ok();
     of_values("", &read(before)?, &read(now)?)
