@@ -44,7 +44,7 @@ pub fn verify_bundle<W: Into<OsString> + Clone>(
     let Some(BundleSubject::Verify(args)) = subject else {
         return Err(anyhow!("expected the command `bundle verify`"));
     };
-    // The number of threads belongs to the caller.
+    // One thread, because the caller decides on the number of threads.
     let found = cmd::bundle::verification(args, NonZeroUsize::MIN, &SilentProgress)?;
     Ok(BundleVerification {
         text: rendered(&found, ListFormat::Text)?,

@@ -34,7 +34,7 @@ impl Context {
         }
         Context {
             progress: TerminalProgress::new(everywhere.quiet, everywhere.verbose > 0),
-            // The same number on one thread as on many: no result depends on it.
+            // No result depends on the number of threads.
             jobs: NonZeroUsize::new(there).unwrap_or(NonZeroUsize::MIN),
             verbose: everywhere.verbose > 0,
             quiet: everywhere.quiet,

@@ -209,7 +209,7 @@ fn missing_dataset(error: &Error) -> Option<&Path> {
     })
 }
 
-/// Dataset error in `cause`, directly or within an import error.
+/// Dataset error in `cause`, directly or within an import error; `None` for other errors.
 fn dataset_error<'a>(cause: &'a (dyn std::error::Error + 'static)) -> Option<&'a DatasetError> {
     let import = cause.downcast_ref::<ImportError>();
     import.map_or_else(|| cause.downcast_ref(), ImportError::dataset)

@@ -44,7 +44,7 @@ pub fn metrology<W: Into<OsString> + Clone>(
 ) -> anyhow::Result<Metrology> {
     let cli = Cli::parsed_from(arguments)?;
     cmd::check_isa()?;
-    // A Parquet file is read on one thread: the number of threads belongs to the caller.
+    // A Parquet file is read on one thread, because the caller decides on the number of threads.
     let jobs = NonZeroUsize::MIN;
     match &cli.command {
         Some(Command::Gauge(args)) => {

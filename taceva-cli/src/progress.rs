@@ -52,7 +52,7 @@ pub(crate) fn stop() {
     }
 }
 
-/// True after a signal.
+/// True after a signal, or after [`stop`] was called.
 pub(crate) fn is_stopped() -> bool {
     STOPPED.load(Ordering::SeqCst)
 }

@@ -144,7 +144,7 @@ pub(crate) struct BundleDiff {
 /// Level of a verification.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum LevelArg {
-    /// Files are those of bundle.json, byte for byte
+    /// Files are equal to the files that bundle.json lists, byte for byte
     Files,
     /// Schemas, seals and generated files are valid, and the results contain the claims
     Form,

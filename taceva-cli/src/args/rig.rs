@@ -45,7 +45,7 @@ pub(crate) enum RigSubject {
 /// Do this once before the first run on a rig, and again after every change of its network, its machine or a device.
 ///
 /// With --weight nothing moves and only the force transducer is opened: you take every load off it and hang a known weight on it once. The
-/// change of Fz is compared with m·g, and the result is written into the rig file. A factor of a mistaken unit of force is named.
+/// change of Fz is compared with m·g, and the result is written into the rig file. If the force is in a wrong unit, the message names this unit.
 #[derive(Debug, Args)]
 pub(crate) struct RigCheckArgs {
     /// The rig file

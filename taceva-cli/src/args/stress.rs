@@ -23,8 +23,8 @@ pub(crate) struct Stress {
     pub(crate) model: PathBuf,
     #[command(flatten)]
     pub(crate) view: ViewArgs,
-    /// Faults, separated by commas; gel-12 or all means those of pictures, recording-5 those of files, markers, clocks and labels, taxel-3 those of taxels,
-    /// time-1 that of times, ORG/NAME a fault of a plugin [default: gel-12, or taxel-3 if the model reads signals]
+    /// Faults, separated by commas: gel-12 or all for pictures, recording-5 for files, markers, clocks and labels, taxel-3 for taxels, time-1 for
+    /// times, ORG/NAME for a fault of a plugin [default: gel-12, or taxel-3 if the model reads signals]
     #[arg(long, value_name = "FAULTS", value_delimiter = ',')]
     pub(crate) faults: Vec<String>,
     /// A second fitted model: states the error that each fault adds, divided by the error that it adds to this model

@@ -107,7 +107,7 @@ fn units_of(named: &[PathBuf]) -> anyhow::Result<Vec<Study>> {
     Ok(units)
 }
 
-/// Target consumer's risk from `--target-risk`: the allowed share of wrongly accepted units.
+/// Target consumer's risk from `--target-risk`, the allowed share of wrongly accepted units; `None` without this option.
 fn target_risk(args: &Accept) -> anyhow::Result<Option<f64>> {
     match args.target_risk {
         Some(share) if !(share > 0.0 && share < 1.0) => Err(Usage::error(format!(

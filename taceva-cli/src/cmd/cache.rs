@@ -42,7 +42,7 @@ pub(super) fn note(cache: Option<&Cache>, context: &Context) {
     }
 }
 
-/// The folder `taceva` in the user's cache folder. Ignores relative paths, as the XDG specification requires.
+/// Folder `taceva` in the user's cache folder; `None` without a cache folder. Relative paths are ignored, as the XDG specification requires.
 fn of_user() -> Option<PathBuf> {
     let folder = |variable| std::env::var_os(variable).map(PathBuf::from);
     let caches = folder("XDG_CACHE_HOME").filter(|path| path.is_absolute());

@@ -236,7 +236,7 @@ const PULLED_N: f64 = -0.3;
 
 /// Remedy for a reversed Fz: both lines for the rig file, and the check that decides between them.
 fn righted(spec: &LiveSpec) -> String {
-    // Without a rig file the frame of the transducer is that of the sensor.
+    // Without a rig file, the transducer has the frame of the sensor.
     let axes = spec.force_axes();
     let axes = axes.or_else(|| SignedAxes::read(["x", "y", "z"]).ok());
     let lines = axes.into_iter().flat_map(SignedAxes::turned_over);
@@ -295,7 +295,7 @@ fn summarise(
             "next: taceva check {path}, then taceva evaluate {path} --model ridge"
         ));
     } else {
-        // A transducer that repeats one number from its first reading is not refused at rest.
+        // A transducer that repeats one number from its first reading on is not detected at rest.
         stderr::say(format_args!(
             "warning: Fz never exceeded 0.1 N, so no contact was recorded; if the gel was pressed, check the transducer, its cable and its amplifier"
         ));

@@ -62,7 +62,7 @@ fn candidates(folder: Option<&Path>) -> anyhow::Result<Vec<Sensor>> {
         .iter()
         .flat_map(Sensor::measured_candidates)
         .collect();
-    // A sensor without published facts is there by its bundles alone.
+    // A sensor without published facts is represented only by the candidates of its bundles.
     sensors.retain(|sensor| sensor.has_published() || !sensor.has_bundles());
     sensors.extend(measured);
     Ok(sensors)

@@ -15,7 +15,7 @@ pub(in crate::cmd) struct Terminal<I: Read> {
     input: BufReader<I>,
     say: fn(&str),
     is_stopped: fn() -> bool,
-    /// Page that also shows each question; the first answer is used.
+    /// Page, if any, that also shows each question. The first answer is used.
     page: Option<Live>,
 }
 
@@ -102,7 +102,7 @@ impl<I: Read + Waits> Terminal<I> {
     }
 }
 
-/// Parses the answer in `line`. Only the name of a robot permits its motion.
+/// Parses the answer in `line`; `None` for other text. Only the name of a robot permits its motion.
 fn answer(question: &Question, line: &str) -> Option<Answer> {
     let typed = line.trim_end_matches(['\r', '\n']).trim();
     match (question, typed) {

@@ -15,12 +15,12 @@ const LONGEST: Duration = Duration::from_secs(1);
 /// Longest time for the first picture, which also starts the plugin.
 const FIRST: Duration = Duration::from_secs(10);
 
-/// True if a fault of the program is called `name`, or their list.
+/// True if `name` is the name of a fault of this program, or of a list of such faults.
 pub(super) fn is_taken(name: &str) -> bool {
     GEL_FAULTS.contains(&name.trim()) || select(&[name.to_owned()]).is_ok()
 }
 
-/// The estimator called `key`, or the words for one that no plugin has.
+/// Estimator with this `key`, or a message that no plugin has this estimator.
 pub(super) fn find(
     estimators: &[Arc<dyn EstimatorFactory>],
     key: &str,

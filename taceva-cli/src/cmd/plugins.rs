@@ -48,7 +48,7 @@ impl Context {
             None => PluginConfig::default(),
         };
         config.trusted_now.extend(self.plugins.trusted.clone());
-        // Paths of arguments are relative to the working folder; others are not.
+        // Only paths of arguments are relative to the working folder.
         let typed: Vec<PathBuf> = (self.plugins.folders.iter())
             .map(|folder| std::path::absolute(folder).with_context(|| shown(folder).to_string()))
             .collect::<Result<_, _>>()?;

@@ -171,7 +171,7 @@ pub(super) fn check_metrics(planned: &PlannedScene) -> anyhow::Result<()> {
             *reasons.entry(skip.reason.to_string()).or_default() += 1;
         }
     }
-    // Names the line to write if one is missing.
+    // A missing footprint has priority, because its message names the line to write.
     let unwritten = PlanReason::Skip(SkipReason::FactAbsent("footprint")).to_string();
     let most = match reasons.remove_entry(&unwritten) {
         None => reasons.into_iter().max_by_key(|(_, metrics)| *metrics),
@@ -222,7 +222,7 @@ pub(super) fn tested_presses(study: &PlannedStudy) -> Option<Vec<&PlannedPress>>
         points: Some(&points),
         ..SplitInput::default()
     };
-    // A run refuses what cannot be divided.
+    // A run itself rejects presses that cannot be divided.
     let split = split_of(study)?.assign(&input, 0).ok()?;
     Some(split.test.iter().map(|row| presses[*row]).collect())
 }
@@ -240,7 +240,7 @@ pub(super) fn has_test_part(plan: &Plan) -> bool {
     fits.any(|fit| fit.field == Field::Prediction && fit.folds.is_none())
 }
 
-/// Share of the contact points that are scored: that of the test part, or 1 without one.
+/// Share of the contact points that are scored: the share of the test part, or 1 without a test part.
 pub(super) fn test_share(study: &PlannedStudy) -> f64 {
     let split = split_of(study).filter(|_| has_test_part(&study.plan));
     split.map_or(1.0, |split| {
@@ -249,9 +249,9 @@ pub(super) fn test_share(study: &PlannedStudy) -> f64 {
     })
 }
 
-/// Number of contact points of `study` of which `tested` are scored.
+/// Number of contact points of `study` that are needed to score `tested` of them.
 pub(super) fn points_for(tested: usize, study: &PlannedStudy) -> usize {
-    // A share in binary64 is rounded.
+    // The share is rounded in binary64, which the subtraction allows for.
     whole_size((tested as f64 / test_share(study) - 1e-9).ceil())
 }
 

@@ -117,7 +117,7 @@ fn whole(
     Ok(Some(scored))
 }
 
-/// Scores a shard of tables of any length, or all of it; `None` if only the plan is requested.
+/// Scores a shard of tables of any length, or all of their rows; `None` if only the plan is requested.
 fn by_shard(
     request: &ScoreRequest,
     args: &Score,

@@ -22,7 +22,7 @@ pub(super) fn check_model_file(path: &Path) -> anyhow::Result<()> {
     check_file_of("--model", path)
 }
 
-/// Refuses a model file of this option that does not exist.
+/// Refuses a model file of `option` that does not exist.
 fn check_file_of(option: &str, path: &Path) -> anyhow::Result<()> {
     match path.is_file() {
         true => Ok(()),
@@ -139,7 +139,7 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
     })
 }
 
-/// Prints the faults of plugins that failed, each with its reason. True if there is one.
+/// Prints the faults of plugins that failed, each with its reason. True if at least one failed.
 pub(super) fn say_failed(report: &StressReport, before: &str) -> bool {
     for failed in &report.failed {
         stderr::say(format_args!(

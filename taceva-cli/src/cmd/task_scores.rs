@@ -59,7 +59,7 @@ fn write_report(
     Ok(report)
 }
 
-/// Writes the page of `report`, if one is requested. The errors of the only task have the pictures of `dataset`.
+/// Writes the page of `report`, if it is requested. Errors are shown with pictures of `dataset`, if given.
 pub(super) fn write_page(
     report: &TaskReport,
     page: &PageArgs,

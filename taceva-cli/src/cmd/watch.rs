@@ -172,11 +172,11 @@ struct Watcher(Mutex<Watched>);
 struct Watched {
     monitor: Monitor,
     has_force: bool,
-    /// Normal force of the newest reading.
+    /// Normal force of the newest reading, N; `None` before the first reading.
     normal_n: Option<f64>,
-    /// Number of untouched pictures that are still not watched.
+    /// Number of further untouched pictures that are not watched, because the gel recovers.
     recovering: u32,
-    /// Number of pictures until the end.
+    /// Number of remaining pictures; `None` to continue until Ctrl-C.
     left: Option<u64>,
     failure: Option<anyhow::Error>,
 }

@@ -106,7 +106,7 @@ fn reports(
 struct Outlook<'a> {
     planned: &'a PlannedScene,
     number: usize,
-    /// Results of the same study in an earlier run.
+    /// Results of the same study in an earlier run, if any.
     pilot: Option<&'a EvaluationReport>,
     drivers: &'a Drivers,
 }
@@ -198,7 +198,7 @@ fn motion(plan: &Plan) -> String {
     spoken(Duration::from_secs_f64(60.0 * plan.cost.minutes))
 }
 
-/// Scored contact points of `study`; `None` if it presses none.
+/// Scored contact points of `study`; `None` if it has no calibration presses.
 fn tested(study: &PlannedStudy) -> Option<TestedPoints> {
     let all: Vec<&PlannedPress> = study.plan.presses_of(PhaseKind::Calibration).collect();
     let samples = all.iter().map(|planned| planned.press.samples());
@@ -209,7 +209,7 @@ fn tested(study: &PlannedStudy) -> Option<TestedPoints> {
     };
     (!all.is_empty()).then(|| TestedPoints {
         points: match scene::has_test_part(&study.plan) {
-            // Too few points to divide leave no test part.
+            // If there are too few points to divide, the test part is empty.
             true => count(&scene::tested_presses(study).unwrap_or_default()),
             false => count(&all),
         },

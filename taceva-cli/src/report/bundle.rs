@@ -61,7 +61,7 @@ pub(crate) fn verification(
     }
     for claim in &found.claims {
         let reason = claim.reason.as_deref().unwrap_or_default();
-        // Claims without files for a deeper level are summed up by that level.
+        // Other claims are only counted, by the level that they reach.
         if matches!(claim.verdict, Verdict::Differs | Verdict::Within) {
             writeln!(
                 out,

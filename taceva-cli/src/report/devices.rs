@@ -121,7 +121,7 @@ fn text(devices: &Devices, out: &mut dyn Write) -> io::Result<()> {
 pub(super) fn driver(driver: &ListedDriver, out: &mut dyn Write) -> io::Result<()> {
     let (key, kind) = (&driver.key, driver.kind.to_string());
     let source = driver.source.to_string();
-    // The title of a simulation may begin with the word too.
+    // The title of a simulated device may begin with the source, which is already printed.
     let title = driver.title.strip_prefix(&format!("{source} "));
     let title = title.unwrap_or(&driver.title);
     writeln!(out, "{key:<22} {kind:<9} {source}: {title}")?;

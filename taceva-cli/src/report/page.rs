@@ -256,7 +256,7 @@ pub(crate) fn write_figures(
 
 /// Converts a finished evaluation to a study, with its samples.
 pub(crate) fn study(report: &EvaluationReport) -> anyhow::Result<Study> {
-    // Parsed as from a file, so that a page shows what others read.
+    // Parsed like a file, so that a page shows the same data as other programs read.
     let mut studies = Study::read(&taceva_results::sealed(report)?)?;
     let mut study = studies.pop().context("one evaluation is one study")?;
     study.samples.clone_from(&report.samples);

@@ -154,7 +154,7 @@ struct Listed {
     /// Python module of the plugin; `None` for a library.
     #[serde(skip_serializing_if = "Option::is_none")]
     module: Option<PythonModule>,
-    /// Interpreter that runs the module, with its version.
+    /// Interpreter that runs the module, with its version; `None` for a library.
     #[serde(skip_serializing_if = "Option::is_none")]
     interpreter: Option<String>,
     delivery: Delivery,

@@ -45,7 +45,7 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
             cells.extend(published.get(number).cloned());
         }
         let [metric, channel, unit] = row;
-        // A metric is named once, above its channels.
+        // The name of a metric is printed once, above its channels.
         let named = match metric == last {
             true => String::new(),
             false => Better::named(&metric),
@@ -117,7 +117,7 @@ fn published(report: &EvaluationReport, lines: &[ScoreLine<'_>], rows: &[Row]) -
         let line = lines.iter().find(|line| row_of(line) == *row)?;
         let definition = &line.score.definition;
         let found = sensor.published_alike(&line.name, line.channel, definition, line.unit)?;
-        // With the published digits only.
+        // The value has only the published digits.
         Some(found.value.to_string())
     };
     let cells: Vec<Option<String>> = rows.iter().map(alike).collect();
@@ -145,7 +145,7 @@ fn columns(reports: &[EvaluationReport], published: &[Vec<String>]) -> Vec<Colum
         .collect()
 }
 
-/// Scores without variants. Scores of planes replace those of their axes.
+/// Scores without variants. Scores of planes replace the scores of their axes.
 fn headlines(report: &EvaluationReport) -> Vec<ScoreLine<'_>> {
     let lines = lines(&report.scores);
     let has = |name: &str, channel: &str| {

@@ -32,7 +32,7 @@ pub(super) fn every_number(report: &EvaluationReport) -> Table {
     ];
     let columns = [Column::of_metrics()].into_iter();
     let columns = columns.chain(names.map(Column::new));
-    // For several recordings the rows of each follow those of all.
+    // If there are several recordings, the rows of all recordings together come first, then the rows of each.
     let is_several = !report.by_recording.is_empty();
     let more = ["recording", "recording_digest"];
     let more = more.into_iter().filter(|_| is_several).map(Column::new);
@@ -85,7 +85,7 @@ fn numbers(line: &ScoreLine<'_>, source: &str) -> [Cell; 15] {
     ]
 }
 
-/// Lines and channels of a table by channel: those with at least one value, or all if no line has a value.
+/// Lines and channels that a table shows: lines and channels with at least one value, or all if no line has a value.
 struct ShownLines<'a> {
     lines: Vec<ScoreLine<'a>>,
     channels: Vec<&'a str>,
@@ -205,7 +205,7 @@ fn caption_with(report: &EvaluationReport, foreign: impl Fn(&str) -> String) -> 
     let model = provenance.model.as_ref();
     let model = model.map_or_else(String::new, |model| format!(" Model: {}.", model.name));
     let split = provenance.split.as_ref();
-    // Left-out samples of a protocol belong to its other parts.
+    // Left-out samples of a protocol belong to other phases.
     let unused = provenance.samples.get("left_out");
     let unused = unused.filter(|_| provenance.presses.is_empty());
     let unused = unused.map(|count| format!(", with {} in no part", counted(*count, "sample")));

@@ -125,7 +125,7 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     notes
 }
 
-/// Remark on the severities whose pictures change by less than half of the target, or by more than twice the target.
+/// Remark on severities whose pictures change by less than half of the target, or more than twice the target; `None` without such severities.
 fn missed_targets(report: &StressReport) -> Option<String> {
     if report.by == By::Parameter {
         return None;
@@ -258,7 +258,7 @@ fn spread(fault: &FaultReport, channels: &[&str]) -> String {
     }
 }
 
-/// Reason for the absence of every share that new untouched inputs remove, if it is the same.
+/// Reason why no share that new untouched inputs remove is known; `None` if a share is known or the reasons differ.
 fn common_reason(fault: &FaultReport) -> Option<Undefined> {
     let reason = fault.recovers.values().next()?.reason?;
     let mut shares = fault.recovers.values();
@@ -266,7 +266,7 @@ fn common_reason(fault: &FaultReport) -> Option<Undefined> {
     is_common.then_some(reason)
 }
 
-/// Severity at which skill ends, as far as the tested severities bound it.
+/// Text on the severity at which skill ends, or on the tested severities that bound it.
 fn skill_end(fault: &FaultReport, breaks_at: Option<u8>) -> String {
     let tested = fault.severities.iter().map(|of| of.severity);
     let last = fault.severities.last().map(|of| of.severity);

@@ -16,7 +16,7 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
     let mut last = String::new();
     let mut table = by_cell(["metric", "channel", "value", "unit", "95 % interval", "n"]);
     for line in read_lines(&report.scores) {
-        // A metric is named once, above its channels.
+        // The name of a metric is printed once, above its channels.
         let name = match last == line.name {
             true => String::new(),
             false => line.shown_name(),

@@ -118,7 +118,7 @@ fn claims(found: &Verification) -> Table {
 fn tick(claim: &ClaimCheck, level: Level) -> &'static str {
     match claim.verdict {
         Verdict::Differs if claim.level == level => "✗",
-        // The results may hold the number, or another one: the first difference ends at the scores.
+        // If a claim differs from the recomputed scores, its comparison with the results is unknown.
         Verdict::Differs if claim.level == Level::Scores && level == Level::Form => "–",
         _ if claim.level >= level => "✓",
         _ => "–",

@@ -58,7 +58,7 @@ pub struct CaptureRequest {
     pub frames: Option<u64>,
     /// Rig file of all devices, whose axes and latencies the recording stores; `None` if selectors name the devices.
     pub rig: Option<RigFile>,
-    /// `operator` and `laboratory` as settings of the recording; they replace those of the rig file.
+    /// Settings `operator` and `laboratory` of the recording. They replace the settings of the rig file.
     pub stated: BTreeMap<String, String>,
 }
 
@@ -66,9 +66,9 @@ pub struct CaptureRequest {
 #[derive(Clone, Copy, Default)]
 #[non_exhaustive]
 pub struct Onlookers<'a> {
-    /// Viewer that receives forces and counts of lost frames.
+    /// Viewer that receives forces and counts of lost frames; `None` without a viewer.
     pub viewer: Option<&'a dyn Viewer>,
-    /// Predictor that receives frames. Its [table](LivePredictor::with_table) is written next to the recording.
+    /// Predictor that receives frames, if any. Its [table](LivePredictor::with_table) is written next to the recording.
     pub predictor: Option<&'a LivePredictor<'a>>,
 }
 
@@ -201,7 +201,7 @@ pub fn capture(
     match done {
         Err(source) => Err(kept_after(recorder, &request.path, state, source)),
         Ok(()) => {
-            // A failure to keep a warning or a drift must not lose the recording.
+            // A failure to store a warning or a drift must not lose the recording.
             drop(add_device_warnings(&request.path, &live.device_warnings()));
             let measured = measured_settings(live.settings());
             drop(add_measured_settings(&request.path, &measured));
@@ -238,7 +238,7 @@ struct Recording<'a> {
     contacts: Option<Contacts>,
     viewer: Option<&'a dyn Viewer>,
     state: CaptureState,
-    /// Time of the first frame, in s.
+    /// Time of the first frame, in s; `None` before this frame.
     first_s: Option<f64>,
 }
 

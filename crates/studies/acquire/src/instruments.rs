@@ -28,7 +28,7 @@ pub(crate) fn of_rig(rig: &RigFile) -> Vec<Traceability> {
     [force, robot, sensor].into_iter().flatten().collect()
 }
 
-/// Instruments to store in a recording. Serial numbers are those that drivers reported in `settings`.
+/// Instruments to store in a recording. A serial number that a driver reports in `settings` replaces the written serial number.
 pub(crate) fn kept(
     instruments: Vec<Traceability>,
     settings: &BTreeMap<String, String>,
@@ -49,7 +49,7 @@ pub(crate) fn day_of(source: Source) -> Option<Date> {
     today().filter(|_| source == Source::Recorded)
 }
 
-/// Today, in UTC.
+/// Today's date in UTC; `None` if the clock of the machine is before 1970.
 pub(crate) fn today() -> Option<Date> {
     let since = SystemTime::now().duration_since(UNIX_EPOCH).ok()?;
     Some(Date::of_unix_s(since.as_secs()))

@@ -146,7 +146,7 @@ fn acquire(
         };
         let done = acquire_unit(study, unit, &mut open, path, log, of_unit);
         open.warn(workshop, &mut warned);
-        // A failure to keep a warning or a drift must not lose the recording.
+        // A failure to store a warning or a drift must not lose the recording.
         drop(add_device_warnings(path, &open.warnings()));
         let mut measured = measured_settings(open.settings());
         measured.extend(zero_settings(path));
@@ -272,7 +272,7 @@ fn recording_spec(study: &PlannedStudy, open: &OpenRig, source: Source) -> Recor
     RecordingSpec::new(facts, plan.truth_channels())
 }
 
-/// Footprint and greatest depth, in the format of recordings.
+/// Footprint and greatest depth, in the format of recordings; `None` if the plan has no footprint.
 fn footprint(plan: &Plan) -> Option<Footprint> {
     let footprint = plan.footprint?;
     let of_gel = footprint.depth_max().map(|depth| depth.to_millimetres());

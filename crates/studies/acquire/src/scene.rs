@@ -238,12 +238,12 @@ impl Serialize for PlannedScene {
         scene.serialize_field("scene", &self.scene.name)?;
         scene.serialize_field("seed", &self.scene.seed)?;
         scene.serialize_field("studies", &plans)?;
-        // Results depend on the classifier, so a run with another classifier is another run.
+        // Results depend on the classifier, so another classifier makes another plan.
         if is_classified_otherwise {
             scene.serialize_field("gratings_classified_by", &classified_by)?;
             scene.serialize_field("gratings_set", set)?;
         }
-        // A recording of one rig cannot be resumed on another.
+        // A recording of one rig cannot be resumed on another rig.
         if let Some(rig) = rig {
             scene.serialize_field("rig", &rig.digest().to_string())?;
         }

@@ -14,8 +14,8 @@ use crate::recordings;
 /// Number of rows in a batch: large enough that merging is rare, small enough that a batch fits into the cache.
 pub(crate) const BATCH_ROWS: usize = 1 << 12;
 
-/// Metric of the frame rate and the field of view. Only frames at rest without contact have the full rate, so the metric reads times from its phase,
-/// and everything else from every row.
+/// Metric of the frame rate and the field of view. Only frames at rest without contact have the full rate. The metric therefore reads times only from
+/// its phase, and all other fields from every row.
 pub const OF_SENSOR: &str = "intrinsic";
 
 /// Source of rows with truth and prediction. Any thread may read any range.

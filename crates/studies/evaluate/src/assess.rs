@@ -33,9 +33,9 @@ pub struct Context {
     pub provenance: Provenance,
     /// Notes for the reader, in order. Notes of earlier states are in `provenance`.
     pub notes: Vec<Note>,
-    /// True if the model was fitted on some of the rows, beyond those that `provenance` states.
+    /// True if the model was fitted on some of the rows, even if `provenance` does not show this.
     pub is_seen: bool,
-    /// True if the training part contains neighbours of tested samples that resemble these.
+    /// True if the training part contains neighbours that resemble tested samples.
     pub are_neighbours_learnt: bool,
     /// Facts of the fit behind the predictions. States do not contain them.
     pub fit: FitFacts,
@@ -60,7 +60,7 @@ pub struct FitFacts {
 pub struct Assessed {
     /// Report of the evaluation.
     pub report: EvaluationReport,
-    /// State behind the report.
+    /// State behind the report; `None` for a finished evaluation.
     pub state: Option<StateFile>,
 }
 

@@ -1,10 +1,10 @@
 //! Caches the results of the stages of runs, under the digest of all their inputs.
 //!
 //! ```text
-//! FOLDER/2/acquire/<key>      a line a folder of a run that holds the closed recording, the last one first
-//!         /features/<key>     features of frames, in the same way as a model
-//!         /fit/<key>          a model; first its digest on a line, then its bytes
-//!         /predict/<key>      numbers, in the same way
+//! FOLDER/2/acquire/<key>      one line for each run folder with the closed recording, the latest first
+//!         /features/<key>     features of frames, in the format of a model
+//!         /fit/<key>          a model: its digest in the first line, then its bytes
+//!         /predict/<key>      numbers, in the same format
 //!         /partial/           unfinished entries: renamed when complete, left behind by a stopped run
 //! ```
 //!
@@ -55,7 +55,7 @@ pub struct Cache {
     models: String,
     /// True if many concurrent tasks use features of the same recordings.
     is_of_many: bool,
-    /// Features of whole recordings, for the folds of one call.
+    /// Features of whole recordings, for the folds of one call; `None` if no features are kept in memory.
     memory: Option<features::Memory>,
     /// Rows whose features are computed together; `None` for all rows with an input.
     rows: Option<Vec<usize>>,

@@ -49,7 +49,7 @@ pub fn calibration(
         hits.push(own);
         zeros.push(zero);
     }
-    // A hit is 1 and a miss 0, so their mean is the share of hits, and its interval is that of any mean.
+    // A hit is 1 and a miss 0. The share of hits is therefore a mean, with the interval of a mean.
     let share = catalogue::find("mae").expect("it is in the catalogue");
     let available: FieldSet = dataset.table().fields().with(Field::Prediction);
     let plan = MetricPlan::new(&[share], predicted.channels().clone(), available);

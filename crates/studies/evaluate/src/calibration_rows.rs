@@ -53,7 +53,7 @@ impl PlannedRows {
         }
     }
 
-    /// Planned rows of joined recordings. If a recording has no plan, all of its rows are divided.
+    /// Planned rows of joined recordings; `None` if no recording has a plan. All rows of a recording without a plan are divided.
     fn of_joined(joined: &[JoinedRecording]) -> Result<Option<PlannedRows>, EvaluateError> {
         let mut all = PlannedRows {
             rows: Vec::new(),

@@ -41,7 +41,7 @@ fn usual(kind: TaskKind) -> &'static str {
     }
 }
 
-/// `fit` with the settings by which its model predicts the labels of `task`: classes, or the numbers of a pose or of a depth map.
+/// Request for the fit of a model that predicts the labels of `task`: classes, or the numbers of a pose or of a depth map.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for a model of numbers with a task of classes, or the reverse.
@@ -52,7 +52,7 @@ pub(crate) fn as_predictor(fit: FitRequest, task: &Task) -> Result<FitRequest, E
         _ => return as_classifier(fit, task),
     };
     let model = fit.model.name();
-    // The others predict numbers too.
+    // The other classifiers predict numbers too.
     let of_classes = CLASSIFIERS.iter().take(CLASSIFIERS_ALONE);
     if of_classes.copied().any(|classifier| classifier == model) {
         let usual = usual(task.kind);
@@ -65,7 +65,7 @@ pub(crate) fn as_predictor(fit: FitRequest, task: &Task) -> Result<FitRequest, E
     Ok(fit)
 }
 
-/// `fit` with the settings by which its model predicts the classes of `task`.
+/// Request for the fit of a model that predicts the classes of `task`.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for a model that is not one of [`CLASSIFIERS`].

@@ -18,7 +18,7 @@ pub(crate) struct DepthPairs<'a> {
 }
 
 impl<'a> DepthPairs<'a> {
-    /// No pair of maps of `task`, with the clusters of `dataset`.
+    /// Creates an empty list of pairs for `task`, with the clusters of `dataset`.
     pub(crate) fn new(
         dataset: &'a Dataset,
         task: &'a Task,
@@ -103,7 +103,7 @@ pub(crate) fn definition(task: &Task) -> Result<DepthTask, EvaluateError> {
     }
 }
 
-/// Refusal of the map of `row`.
+/// Error for the map of `row`.
 pub(crate) fn of_sample(
     dataset: &Dataset,
     task: &Task,

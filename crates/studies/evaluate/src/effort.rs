@@ -46,7 +46,7 @@ impl Effort {
             ModelChoice::Fit(fit) => {
                 if let Some(folds) = folds::of(dataset, fit, request.part)? {
                     folds.refuse_part(request)?;
-                    // The parts of each fold are all samples, and their features are computed once.
+                    // Each fold covers all samples, and features are computed once for all folds.
                     return Effort::of_fold(dataset, folds.first(fit)?, None);
                 }
                 Effort::of_fold(dataset, FitPlan::new(dataset, fit)?, request.part)

@@ -151,7 +151,7 @@ impl SplitFields {
         }
     }
 
-    /// Note on neighbours among `rows` that `splits` separate or do not separate. `splits` contain indices into `rows`.
+    /// Note on neighbours among `rows` that resemble each other, and on their division by `splits`, which contain indices into `rows`.
     pub(crate) fn neighbours(
         &self,
         dataset: &Dataset,
@@ -196,7 +196,7 @@ impl SplitFields {
         Some(Note::Neighbours { found, division })
     }
 
-    /// True if each of `rows` is its own contact point. In this case points are not named, the division has no groups, and neighbours do not resemble each
+    /// True if each of `rows` counts as its own contact point: points are not named, the division has no groups, and neighbours do not resemble each
     /// other.
     pub(crate) fn are_independent(
         &self,

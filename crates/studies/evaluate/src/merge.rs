@@ -135,7 +135,7 @@ fn merged<S: Borrow<ReadState>>(
         count += 1;
         take_rows(path, digest, &file.taken)?;
         take(path, file)?;
-        // Models fitted on different samples have different constants, so skill is measured against the mean of the truth.
+        // Models fitted on different samples have different constants. Their skill is measured against the mean of the truth.
         constants.retain(|channel, constant| {
             let other = file.plan.constants.get(channel);
             other.is_some_and(|other| other.to_bits() == constant.to_bits())
@@ -150,7 +150,7 @@ fn merged<S: Borrow<ReadState>>(
     finished.merge(evaluator)?;
     let is_of_shards = all_taken.is_of_shards_of_one_input();
     let taken = all_taken.into_taken();
-    // Neither all shards of one input nor a single state needs a note.
+    // Neither a single state nor a complete set of shards of one input needs a note.
     let (mut notes, mut of_report) = (Vec::new(), Vec::new());
     match (
         is_of_shards || count == 1,

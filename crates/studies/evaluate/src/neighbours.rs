@@ -20,7 +20,7 @@ const DEVIATIONS: f64 = 3.5;
 const PAIRS_LEAST: usize = 20;
 /// Minimum number of groups for which a column is preferred to blocks of time.
 const GROUPS_LEAST: usize = 5;
-/// Parts of the names of columns whose values are groups, in order of preference. The last name is general, as in a draft for groups of HDF5.
+/// Parts of the names of columns whose values are groups, in order of preference. The last part is the most general.
 const GROUP_NAMES: [&str; 12] = [
     "clip", "video", "episode", "take", "trial", "press", "grasp", "repeat", "session", "run",
     "object", "group",
@@ -92,8 +92,8 @@ fn least(pairs: usize) -> f64 {
     LEAST.max(DEVIATIONS / (pairs as f64).sqrt())
 }
 
-/// Resemblance of the rank pairs, and number of pairs. The resemblance is 1 − d/e with the mean squared difference d of the pairs, and e of
-/// independent ranks. `None` if all ranks are equal.
+/// Resemblance of the rank pairs, and number of pairs. The resemblance is 1 − d/e. Here d is the mean squared difference of the pairs, and e its
+/// expected value for independent ranks. `None` if all ranks are equal.
 fn resemblance(pairs: impl Iterator<Item = [f64; 2]>) -> Option<(f64, usize)> {
     let (mut count, mut apart, mut sum, mut squares) = (0_usize, 0.0, 0.0, 0.0);
     for [one, other] in pairs {
@@ -134,8 +134,8 @@ pub(crate) fn preference(name: &str) -> Option<usize> {
     GROUP_NAMES.iter().position(|known| name.contains(known))
 }
 
-/// Column whose values are groups of neighbours. Several groups consist of consecutive rows, and the last sample of a group does not resemble the first sample
-/// of the next group.
+/// Column whose values are groups of neighbours, if any. Several groups consist of consecutive rows. The last sample of a group does not resemble the
+/// first sample of the next group.
 fn group_column(
     dataset: &Dataset,
     rows: &[usize],

@@ -113,7 +113,7 @@ pub enum Note {
     Seen(&'static str),
     /// The model was fitted on other data with this digest.
     FittedElsewhere(String),
-    /// Frames of the test part that are also in the training part.
+    /// Frames of the test part that are also in the training or validation part.
     Copies {
         /// Number of such frames.
         copies: usize,
@@ -187,13 +187,13 @@ pub enum Note {
         /// Period that was assumed, in degrees.
         period: u16,
     },
-    /// A channel whose predictions follow the truth at about a thousand times its size, or a thousandth.
+    /// A channel whose predictions are about 1000 times the truth, or 1/1000 of the truth.
     LikelyUnit {
         /// Name of the channel.
         channel: String,
         /// Unit of the channel.
         unit: Unit,
-        /// True for a thousandth, false for a thousand times.
+        /// True for the factor 1/1000, false for the factor 1000.
         is_small: bool,
     },
     /// The tables of truth and predictions are byte-identical.
@@ -269,7 +269,7 @@ pub struct Coverage {
     pub channel: String,
     /// Share of the samples, in percent.
     pub percent: f64,
-    /// 95 % interval of the share by contact point, in percent.
+    /// 95 % interval of the share by contact point, in percent; `None` for too few points.
     pub interval: Option<[f64; 2]>,
     /// Number of samples.
     pub n: u64,

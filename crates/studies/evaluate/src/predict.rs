@@ -42,7 +42,7 @@ pub fn predict(
     })
 }
 
-/// Group of each row of `target`, from the split of the model, or else from a column that names groups. The group replaces a missing contact point.
+/// Group of each row of `target`, from the split of the model, or else from a column of groups. A group replaces a missing contact point.
 fn groups(dataset: &Dataset, target: &Target) -> Option<Vec<String>> {
     let divided = target.divided.as_ref();
     if let Some(groups) = divided.and_then(|divided| divided.groups.as_ref()) {
@@ -155,7 +155,7 @@ pub fn model_extractor(dataset: &Dataset, model: &Model) -> Result<Extractor, Ev
     extractor_of(dataset, model, Model::extractor)
 }
 
-/// Builder of an extractor of a model from the input and the contact-free reference.
+/// Function that creates an extractor of a model from the input and the contact-free reference.
 type Build = fn(&Model, InputInfo, Option<Input<'_>>) -> Result<Extractor, FeatureError>;
 
 fn extractor_of(

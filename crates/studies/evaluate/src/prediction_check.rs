@@ -187,7 +187,7 @@ fn predicted_rows(model: &Model, samples: &Samples) -> Vec<usize> {
     (0..samples.rows()).filter(is_predicted).collect()
 }
 
-/// Description of the first difference between the samples of the table and `rows` of `dataset`.
+/// Description of the first difference between the samples of the table and `rows` of `dataset`; `None` without a difference.
 fn other_samples(dataset: &Dataset, rows: &[usize], samples: &Samples) -> Option<String> {
     if samples.rows() != rows.len() {
         return Some(format!(
@@ -198,7 +198,7 @@ fn other_samples(dataset: &Dataset, rows: &[usize], samples: &Samples) -> Option
     }
     rows.iter().enumerate().find_map(|(at, row)| {
         let found = samples.word(Samples::KEY, at).unwrap_or_default();
-        // The name of a joined recording is that of its folder, which may be another one here.
+        // A joined recording is named after its folder, which may have another name here.
         let (expected, own) = match dataset.recording_of(*row) {
             Some((own, row)) => (
                 own.table().samples()[row].as_str(),
@@ -217,7 +217,7 @@ fn other_samples(dataset: &Dataset, rows: &[usize], samples: &Samples) -> Option
     })
 }
 
-/// Description of the first difference between the labels of the table and the labels of `rows` of `dataset`.
+/// Description of the first difference between the labels of the table and the labels of `rows` of `dataset`; `None` without a difference.
 fn other_labels(dataset: &Dataset, rows: &[usize], samples: &Samples) -> Option<String> {
     let table = dataset.table();
     table
@@ -265,7 +265,7 @@ fn compared(
                 continue;
             };
             differing += 1;
-            // An unclipped prediction differs by as much as a clipped one, or more.
+            // The unclipped prediction differs at least as much as the clipped one, so both are compared.
             for [found, again] in pairs.chain([[found, again]]) {
                 most = most.max(share(distance(channel, found, again), range));
             }

@@ -21,7 +21,7 @@ pub struct PredictionFiles {
 
 /// Files behind the predictions in `samples`, for each recording whose digest `provenance` states: one of `datasets`, or all of them joined.
 ///
-/// A pack of frames is one file, and may hold other frames too.
+/// A pack of frames is a single file, and may contain frames that the model does not read.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] if no recording has the digest. Otherwise errors of opening a recording.
@@ -44,7 +44,7 @@ pub fn prediction_files(
             vec![files_of(&dataset, &names)]
         }
         joined => {
-            // The name of a joined recording is that of its folder, which may be another one here.
+            // A joined recording is named after its folder, which may have another name here.
             let names = names.filter_map(|name| Some(name.split_once('/')?.1));
             let names: BTreeSet<&str> = names.collect();
             let files = joined.iter().map(|own| files_of(own.dataset(), &names));

@@ -69,7 +69,7 @@ pub fn model(model: &Model) -> Result<ModelProvenance, EvaluateError> {
         .map(|(key, value)| (key.to_owned(), value.to_owned()))
         .collect();
     settings.insert("features".to_owned(), card.features.to_string());
-    // A model that draws has a seed, also if the caller states none.
+    // A model with random draws has a seed, even if the caller states none.
     let known = taceva_models::find(&card.model).map_or(&[][..], |info| info.settings);
     if let Some(seed) = known.iter().find(|setting| setting.key == SEED) {
         let seed = || seed.default.to_owned();

@@ -44,7 +44,7 @@ pub struct Recount {
 }
 
 impl Recount {
-    /// Scores of `evaluator`, completed in the same way as those of the state `file`.
+    /// Scores of `evaluator`, completed like the scores of the state `file`.
     ///
     /// # Errors
     /// [`EvaluateError::Scores`] for samples that the accumulators reject.

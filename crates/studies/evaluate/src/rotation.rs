@@ -45,7 +45,7 @@ fn of_rotation(channels: &[String], predicted: &Predicted) -> Option<Note> {
     })
 }
 
-/// Orientation from a rotation vector in degrees, or from a quaternion of any nonzero length.
+/// Orientation from a rotation vector in degrees, or from a quaternion of any nonzero length; `None` for other `parts`.
 fn orientation(parts: &[f64]) -> Option<Orientation> {
     match *parts {
         [x, y, z] => Some(Orientation::of_vector([x, y, z].map(f64::to_radians))),

@@ -66,7 +66,7 @@ impl Taken {
         self.of.is_some()
     }
 
-    /// For shards of one input: number of counted rows, and number of rows of the input.
+    /// Number of counted rows, and number of rows of the input; `None` unless these are rows of a shard.
     pub(crate) fn share(&self) -> Option<[usize; 2]> {
         // A forged state may end a range before its beginning.
         let counts = self
@@ -101,7 +101,7 @@ impl Taken {
         }
     }
 
-    /// First row that both inputs have counted, and the number of such rows.
+    /// First row that both have counted, and the number of such rows; `None` without such a row.
     fn shared(&self, other: &Taken) -> Option<(usize, usize)> {
         if self.input != other.input {
             return None;
@@ -134,7 +134,7 @@ pub(crate) struct AllTaken {
 impl AllTaken {
     /// Adds the rows of the state file at `path` with the digest `digest`. Returns an error message if some rows were already counted.
     pub(crate) fn add(&mut self, path: &Path, digest: &str, taken: &[Taken]) -> Result<(), String> {
-        // Shards without rows are equal, and counting one twice is harmless.
+        // Shards without rows have equal states, and counting such a shard twice is harmless.
         let is_empty = !taken.is_empty() && taken.iter().all(|taken| taken.rows.is_empty());
         let known = self.states.iter().find(|(_, known)| known == digest);
         if let Some((before, _)) = known.filter(|_| !is_empty) {

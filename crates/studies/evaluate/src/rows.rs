@@ -152,7 +152,7 @@ impl Divided {
         Divided::by_spec(dataset, rows, spec, seed)
     }
 
-    /// Divides `rows` of `dataset` by the default split, into parts of these sizes.
+    /// Divides `rows` of `dataset` by the default split, into parts with the shares `fractions`.
     ///
     /// # Errors
     /// Errors of [`new`](Divided::new).
@@ -356,7 +356,7 @@ pub fn usable(dataset: &Dataset, rows: &[usize], need: Need<'_>) -> Vec<usize> {
 pub struct Need<'a> {
     /// True if a frame is required.
     pub frame: bool,
-    /// Channels that must each have a label.
+    /// Channels that must each have a label; `None` if no label is required.
     pub labels: Option<&'a Channels>,
 }
 

@@ -57,7 +57,7 @@ pub fn add_division(samples: &mut Samples, rows: &[usize], divided: &Divided) {
     }
 }
 
-/// Protocol phases of each of `rows`, such as `calibration light-sweep`; `None` for a row in no phase.
+/// Protocol phases of each of `rows`, such as `calibration light-sweep`; an empty text for a row in no phase.
 pub fn protocol(rows: &[usize], parts: &BTreeMap<&'static str, Vec<usize>>) -> Vec<Option<String>> {
     let words = rows.iter().map(|row| {
         let of_row = parts

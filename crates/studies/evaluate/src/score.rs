@@ -269,11 +269,11 @@ struct Said {
     is_independent: bool,
     /// Pairing of rows, which the state also records.
     paired: PairedBy,
-    /// Columns that are read as channels of unit 1.
+    /// Note on columns that are read as channels of unit 1, if any.
     unit_of_one: Option<Note>,
     /// Angles that are probably in radians.
     angles: Vec<Note>,
-    /// Note on the shard, which is only in the report.
+    /// Note on the shard, if any. It is only in the report.
     shard: Option<Note>,
 }
 

@@ -11,7 +11,7 @@ pub(crate) struct ScoreStates {
     positive: Option<usize>,
     /// Scores of the positive class by cluster. Each cluster is sorted once.
     ranked: BTreeMap<String, RankedRows>,
-    /// States that need the scores of all classes.
+    /// States that need the scores of all classes; `None` if only the positive class has scores.
     of_all: Option<(Probabilities, TopK)>,
 }
 
@@ -23,7 +23,7 @@ struct RankedRows {
 }
 
 impl ScoreStates {
-    /// No samples of the classes `names`. Without `are_all`, only the positive class has scores.
+    /// Creates states of the classes `names` without samples. Without `are_all`, only the positive class has scores.
     ///
     /// # Errors
     /// [`TaskError`] for fewer than two names, equal names, or a positive class that is not among them.

@@ -15,7 +15,7 @@ use crate::state_file::{Head, read_capped};
 /// Schema of a file with states of tasks.
 pub const TASK_STATE_SCHEMA: &str = "taceva.tasks-state/1.0";
 
-/// Roles of the tables whose rows may count once only.
+/// Roles of the tables whose rows may be counted only once.
 const COUNTED_ONCE: [&str; 2] = ["truth", "dataset"];
 
 /// States of the tasks of one or several pairs of tables, with everything behind their report.
@@ -132,7 +132,7 @@ impl TaskStates {
             states.tasks.iter().map(|task| task.name.clone()).collect()
         };
         if named(&self) != named(&other) {
-            // Both in the order of letters, so that the order of merges changes nothing.
+            // Sorted by name, so that the order of merges has no effect.
             for tasks in [&mut self.tasks, &mut other.tasks] {
                 tasks.sort_by(|one, another| one.name.cmp(&another.name));
             }
@@ -195,7 +195,7 @@ impl TaskStates {
         }))
     }
 
-    /// Digest of labels that both states have.
+    /// Digest of labels that both states contain; `None` without such labels.
     fn counted_twice(&self, other: &TaskStates) -> Option<String> {
         let labels = |states: &TaskStates| -> BTreeSet<String> {
             let tables = states.tables.iter();

@@ -26,7 +26,7 @@ impl ContentId {
         Hasher::new("taceva.text/1").text(text).finish()
     }
 
-    /// Parses 32 hexadecimal digits.
+    /// Parses 32 hexadecimal digits; `None` for other text.
     pub fn from_hex(text: &str) -> Option<ContentId> {
         let is_hex = text.len() == 32 && text.bytes().all(|byte| byte.is_ascii_hexdigit());
         let bits = u128::from_str_radix(text, 16).ok()?;

@@ -12,11 +12,11 @@ use taceva_core::Footprint;
 pub struct FootprintSpec {
     /// Shape of the outline.
     pub shape: Shape,
-    /// Radius of a disc, mm.
+    /// Radius of a disc, mm; `None` for a rectangle.
     pub radius_mm: Option<f64>,
-    /// Half the width of a rectangle, mm.
+    /// Half the width of a rectangle, mm; `None` for a disc.
     pub half_x_mm: Option<f64>,
-    /// Half the height of a rectangle, mm.
+    /// Half the height of a rectangle, mm; `None` for a disc.
     pub half_y_mm: Option<f64>,
 }
 

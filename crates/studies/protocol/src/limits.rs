@@ -207,7 +207,7 @@ struct Tighten<'a> {
 }
 
 impl Tighten<'_> {
-    /// Tightest of the stated limits. Rejects a scene whose limit is looser than that of a device.
+    /// Tightest limit of devices, rig file and scene; `None` without a limit. Rejects a scene or rig file that loosens a limit.
     fn least(
         &self,
         key: &'static str,
@@ -263,7 +263,7 @@ impl Tighten<'_> {
     }
 }
 
-/// The limit after tightening it to `written`.
+/// The limit `written`, otherwise `tightest`; `None` without both.
 ///
 /// # Errors
 /// `LimitLoosened` if `written` exceeds `tightest`.

@@ -65,7 +65,7 @@ pub struct Plan {
     pub limits: Option<RigLimits>,
     /// Settings for finding and keeping contact.
     pub contact: Contact,
-    /// Outline of the sensing surface.
+    /// Outline of the sensing surface; `None` if unknown.
     pub footprint: Option<Footprint>,
     /// True if ambient light cannot reach the camera; `None` if unknown.
     pub opaque: Option<bool>,

@@ -93,7 +93,7 @@ pub struct RigRobot {
     pub turned_deg: Option<[f64; 3]>,
     /// Delay between a pose and its stamp, in ms; `None` uses the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
-    /// Calibration certificate.
+    /// Calibration certificate, if any.
     pub certificate: Option<Certificate>,
 }
 
@@ -116,13 +116,13 @@ pub struct RigForce {
     pub axes: Setting<SignedAxes>,
     /// Delay between a reading and its stamp, in ms; `None` uses the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
-    /// Standard uncertainty of `latency_ms`, in ms, measured by taps.
+    /// Standard uncertainty of `latency_ms`, in ms, measured by taps; `None` if unknown.
     pub latency_u_ms: Option<Setting<f64>>,
     /// Greatest change of a component of the zero during a press, in N. `None` for 5 times the least force that counts as contact.
     pub zero_step_max_n: Option<f64>,
     /// Last comparison with a known weight, if any.
     pub weighing: Option<Setting<Weighing>>,
-    /// Calibration certificate.
+    /// Calibration certificate, if any.
     pub certificate: Option<Certificate>,
 }
 
@@ -250,7 +250,7 @@ impl Check<'_> {
         }
     }
 
-    /// Name of a person or a laboratory, as reports print it.
+    /// Name of a person or a laboratory, if written. Rejects an empty name.
     fn name(&self, key: &str, name: Option<Setting<String>>) -> Result<Option<String>, SceneError> {
         match name {
             Some(name) if name.value.trim().is_empty() => {

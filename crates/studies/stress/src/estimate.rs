@@ -71,11 +71,11 @@ impl fmt::Display for Undefined {
 /// A number with its 95 % interval, or the reason for a missing interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Estimate {
-    /// The number.
+    /// The number; `None` if it is absent.
     pub value: Option<f64>,
-    /// Both ends of its 95 % interval.
+    /// Both ends of its 95 % interval; `None` if the interval is absent.
     pub ci95: Option<[f64; 2]>,
-    /// Reason for an absent number, otherwise for an absent interval.
+    /// Reason why the number, or otherwise its interval, is absent; `None` if both are known or no reason is stated.
     pub reason: Option<Undefined>,
 }
 
@@ -115,7 +115,7 @@ impl Estimate {
         }
     }
 
-    /// Lower end of the interval.
+    /// Lower end of the interval; `None` without an interval.
     pub(crate) fn low(&self) -> Option<f64> {
         self.ci95.map(|[low, _]| low)
     }

@@ -29,7 +29,7 @@ use crate::stress::Stress;
 pub struct Examples {
     sample: String,
     frame: Frame,
-    /// Picture of the scored sample before.
+    /// Picture of the previous scored sample; `None` without such a sample.
     before: Option<Frame>,
     /// Time of the sample, a share of the duration of the recording.
     share: f64,
@@ -39,7 +39,7 @@ pub struct Examples {
 }
 
 impl Examples {
-    /// The sample with the greatest load among those of `report`, which [`stress`](crate::stress()) made of `dataset`. Decodes at most three pictures.
+    /// Examples of the sample with the greatest load in `report`, made by [`stress`](crate::stress()) of `dataset`. Decodes at most three pictures.
     ///
     /// # Errors
     /// [`EvaluateError`] if a picture cannot be read, or the report has no sample.
@@ -83,7 +83,7 @@ impl Examples {
         &self.sample
     }
 
-    /// The picture without a fault, called `clean`, and with each fault and severity, called `tear-3`. Of several draws, the first.
+    /// The picture without a fault, called `clean`, and with each fault and severity, called `tear-3`. Of several draws, only the first is shown.
     pub fn pictures(&self) -> impl Iterator<Item = (String, Frame)> {
         let clean = ("clean".to_owned(), self.frame.clone());
         let faulty = self.cells.iter().map(move |(severity, stress)| {

@@ -7,7 +7,7 @@ use crate::taxels::TaxelChange;
 /// Random numbers of a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
-    /// None: the same change in every picture.
+    /// No random numbers: the same change in every picture.
     Fixed,
     /// Places drawn once: the same pixels in every picture.
     Drawn,
@@ -30,7 +30,7 @@ pub struct Fault {
     pub table: [f64; 5],
     /// Greatest parameter.
     pub most: f64,
-    /// Limitation of the numbers of the fault, for readers.
+    /// Limitation of the numbers of the fault, for readers; `None` without a limitation.
     pub note: Option<&'static str>,
     pub(crate) effect: Effect,
 }
@@ -40,7 +40,7 @@ pub struct Fault {
 pub(crate) enum Effect {
     /// Changes the pixel values of the picture.
     Numbers(fn(&mut Canvas, &Realisation)),
-    /// Changes the numbers of the picture by a parameter that grows with time, from 0 at the first row to the whole parameter at the last.
+    /// Changes the numbers of the picture by a parameter that grows with time: from 0 at the first row to the whole parameter at the last row.
     Growing(fn(&mut Canvas, &Realisation)),
     /// Changes the numbers of the picture at the places of markers.
     Markers(fn(&mut Canvas, &Realisation, &Markers)),
@@ -73,7 +73,7 @@ impl Fault {
         matches!(self.effect, Effect::Taxels(_))
     }
 
-    /// True if the fault leaves rows out, which changes times alone. Its severity is then set by its parameter.
+    /// True if the fault leaves rows out, and thereby changes only times. Its severity is then set by its parameter.
     pub fn is_of_rows(&self) -> bool {
         matches!(self.effect, Effect::Rows)
     }
@@ -105,7 +105,7 @@ impl Fault {
         }
     }
 
-    /// True if the fault is one of markers.
+    /// True if the fault changes markers.
     pub(crate) fn is_of_markers(&self) -> bool {
         matches!(self.effect, Effect::Markers(_))
     }

@@ -111,7 +111,7 @@ pub(crate) static LISTS: [KnownList; 4] = [
     },
 ];
 
-/// Faults called `names`, in the order of all lists; those of a list for its name, those of [`LIST`] for `all`. Spaces around a name do not count.
+/// Faults with the given `names`, in the order of all lists. The name of a list stands for its faults, `all` for [`LIST`]. Spaces are trimmed.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for an unknown name, or without a name.

@@ -1,4 +1,4 @@
-//! Findings in the scores of faults: where skill ends, what a new untouched picture removes, and what remains unnoticed.
+//! Findings in the scores of faults: the end of skill, the error that a new untouched picture removes, and errors that no check finds.
 
 use taceva_metrics::elementary::logarithm;
 
@@ -52,7 +52,7 @@ pub(crate) fn recovers(severities: &[SeverityReport], channel: &str, mean: &Esti
     }
 }
 
-/// Errors that a fault of pictures or signals at least doubles without a finding in the checks of these.
+/// Errors that a fault of pictures or signals at least doubles, although no check of pictures or signals finds the fault.
 pub(crate) fn unnoticed(faults: &[FaultReport]) -> Vec<Unnoticed> {
     let of_inputs = faults.iter().filter(|fault| !fault.keeps_inputs());
     let hidden = of_inputs.flat_map(|fault| {

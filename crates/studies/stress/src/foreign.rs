@@ -127,7 +127,7 @@ impl NewGel<'_> {
             });
         };
         let rest = changed(fault, reference, severity, UNTOUCHED)?;
-        // The pictures of contact have the fault too.
+        // The fault is also in the pictures of contact.
         let pressed = self.scale.pressed.iter().enumerate();
         let pressed = pressed.map(|(number, frame)| {
             let sample = format!("pressed {number}");

@@ -1,4 +1,4 @@
-//! Scores of a fault of labels: the predictions of pictures without a fault, beside the labels with it.
+//! Scores of a fault of labels: predictions of pictures without a fault, compared with labels with the fault.
 
 use taceva_core::Column;
 use taceva_core::random::fnv_1a;
@@ -13,7 +13,7 @@ use crate::stress::Stress;
 use crate::worn::{NewGel, ScoredFault};
 
 impl NewGel<'_> {
-    /// Scores of `fault`, which changes labels, with the `predicted` numbers of pictures without a fault. Another fault has no severity.
+    /// Scores of `fault`, which changes labels, with the `predicted` numbers of pictures without a fault. A fault of another kind gets no severities.
     pub(crate) fn by_labels(
         &self,
         fault: &'static Fault,

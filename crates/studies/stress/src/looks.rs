@@ -16,7 +16,7 @@ pub(crate) struct Look {
 }
 
 impl Look {
-    /// Statistics of `frame` beside the untouched picture.
+    /// Statistics of `frame`, compared with the untouched picture.
     pub(crate) fn of(frame: &Frame, reference: Option<&Frame>) -> Look {
         Look {
             facts: FrameFacts::without_tiles(frame, reference),

@@ -32,7 +32,7 @@ pub(crate) fn notes(
         .collect()
 }
 
-/// Notes on scores of `samples` predicted samples: absent intervals and absent labels.
+/// Notes on scores of `samples` predicted samples: on absent intervals and on absent labels, if any.
 pub(crate) fn of_scores(scored: &Scored, samples: usize) -> [Option<String>; 2] {
     let intervals = match scored.clusters() {
         Some(count) if count < LEAST_CLUSTERS => Some(format!(

@@ -1,9 +1,9 @@
-//! Faults beside those of the crate.
+//! Faults in addition to the faults of this crate.
 
 use crate::foreign::PictureFault;
 use crate::worn::WornFault;
 
-/// Faults that the crate does not make itself. Callers build it as a literal; it has no further fields.
+/// Faults that this crate does not make. Callers build it as a literal; it has no further fields.
 ///
 /// ```
 /// let none = taceva_stress::OtherFaults::default();

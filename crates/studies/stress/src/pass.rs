@@ -116,12 +116,12 @@ pub(crate) fn compares(model: &Model) -> bool {
 /// A model with its features of the recording.
 pub(crate) struct Predictor<'a> {
     pub(crate) model: &'a Model,
-    /// `None` for a model whose predictions depend on no feature.
+    /// Extractor of the features without a fault; `None` for a model whose predictions depend on no feature.
     pub(crate) clean: Option<Extractor>,
 }
 
 impl Predictor<'_> {
-    /// Unclamped predictions of one picture, or of the signals of one sample, computed without other samples, so that these have no influence.
+    /// Unclamped predictions of one picture, or of the signals of one sample. Other samples have no influence.
     pub(crate) fn of<'i>(
         &self,
         input: impl Into<Input<'i>>,

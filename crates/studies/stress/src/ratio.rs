@@ -63,7 +63,7 @@ impl Errors {
         (self.count > 0).then_some(self.total / self.count as f64)
     }
 
-    /// For each cluster, the number of all errors divided by the number of its own; empty if a row has no cluster.
+    /// For each cluster, the number of all errors divided by the number of errors in the cluster; empty if a row has no cluster.
     pub(crate) fn sizes(&self) -> Vec<f64> {
         let clusters = self.clusters.iter().flatten();
         clusters

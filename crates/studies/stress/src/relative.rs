@@ -1,4 +1,4 @@
-//! Errors that faults add, relative to those of a reference model.
+//! Errors that faults add, relative to the errors of a reference model.
 
 use taceva_dataset::Dataset;
 use taceva_evaluate::{EvaluateError, Work, model_provenance};
@@ -13,7 +13,7 @@ use crate::report::{ByChannel, FaultReport, StressReport};
 use crate::setup::StressRequest;
 use crate::study::stress_beside;
 
-/// Adds to `report` its errors relative to those of the model `reference`. [`stress_beside`](crate::stress_beside) made `report` of the same request.
+/// Adds to `report` its errors relative to the errors of `reference`. [`stress_beside`](crate::stress_beside) made `report` of the same request.
 ///
 /// # Errors
 /// Errors of [`stress`](crate::stress()), and [`EvaluateError::Request`] if the reference model scores other samples.
@@ -76,7 +76,7 @@ impl<'a> Excess<'a> {
         })
     }
 
-    /// Sum over the severities of the mean error less that without a fault; `None` for no errors.
+    /// Sum over the severities of the error that the fault adds to the mean error without a fault; `None` for no errors.
     fn sum(&self) -> Option<f64> {
         let clean = self.clean.mean()?;
         let added = self.cells.iter().map(|of| Some(of.mean()? - clean));
@@ -125,8 +125,8 @@ fn ratio(own: &Excess<'_>, reference: &Excess<'_>) -> Estimate {
     Estimate::new(added / by, interval(added / by, &sizes, left_out))
 }
 
-/// 95 % interval of `value` by the jackknife over clusters. `left_out` has the value without a cluster, and `sizes` the number of all errors divided by that of
-/// each cluster.
+/// 95 % interval of `value` by the jackknife over clusters. `left_out` returns the value without a cluster. `sizes` has the number of all errors
+/// divided by the number of errors of each cluster.
 ///
 /// # Reference
 /// Busing, Meijer and van der Leeden, Delete-m jackknife for unequal m, Statistics and Computing 9 (1999).

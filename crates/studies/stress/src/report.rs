@@ -42,7 +42,7 @@ pub struct StressReport {
     pub left_out: usize,
     /// Untouched picture or signals: `reference`, `least load`, or `none`.
     pub untouched: &'static str,
-    /// Mean change by contact: of a picture a share of full scale, of signals in their unit.
+    /// Mean change by contact: of pictures as a share of full scale, of signals in their unit; `None` if unknown.
     pub contact: Option<f64>,
     /// Unit of `contact`.
     pub contact_unit: &'static str,
@@ -55,7 +55,7 @@ pub struct StressReport {
     /// Mean degradation over all faults.
     #[serde(rename = "mD")]
     pub mean: ByChannel<Estimate>,
-    /// Errors that a fault of pictures or signals at least doubles without a finding in the checks of these. `None` for pictures without a reference.
+    /// Errors that a fault of pictures or signals at least doubles, although no check finds the fault. `None` for pictures without a reference.
     pub unnoticed: Option<Vec<Unnoticed>>,
     /// Skipped faults, with reasons.
     pub skipped: Vec<SkippedFault>,
@@ -84,7 +84,7 @@ pub(crate) struct Basis {
 /// List of faults. Scores by different lists are not compared.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct FaultList {
-    /// Name with version, such as `gel-12/1`; the names of the faults if only some were wanted.
+    /// Name with version, such as `gel-12/1`; the names of the faults if only some were requested.
     pub name: String,
     /// Digest of faults, severities and the quantity that sets them.
     pub digest: String,
@@ -97,7 +97,7 @@ pub struct CleanScore {
     pub mae: Estimate,
     /// Skill over a constant prediction.
     pub skill: Estimate,
-    /// Mean absolute error of the constant prediction.
+    /// Mean absolute error of the constant prediction; `None` if unknown.
     pub constant: Option<f64>,
 }
 
@@ -110,7 +110,7 @@ pub struct CellScore {
     pub skill: Estimate,
     /// Error divided by the error without the fault.
     pub degradation: Estimate,
-    /// The error, or the error of the constant prediction if that is less.
+    /// The smaller one of the error and the error of the constant prediction; `None` if one of them is unknown.
     pub capped: Option<f64>,
     /// Least and greatest degradation of a single draw; `None` for one draw.
     pub spread: Option<[f64; 2]>,
@@ -125,7 +125,7 @@ pub struct FaultReport {
     pub title: String,
     /// Meaning and unit of the parameter.
     pub parameter: String,
-    /// Limitation of the numbers, for readers.
+    /// Limitation of the numbers, for readers; `None` without a limitation.
     pub note: Option<String>,
     /// Severities that were tested.
     pub severities: Vec<SeverityReport>,
@@ -141,7 +141,7 @@ pub struct FaultReport {
     /// Severity at which no channel has skill, if higher ones were left out for that reason. Means over severities are then lower bounds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stopped_at: Option<u8>,
-    /// Added error over all severities, divided by that of the reference model; `None` without a reference model.
+    /// Added error over all severities, divided by the added error of the reference model; `None` without a reference model.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relative_error: Option<ByChannel<Estimate>>,
     /// Metrics of time without the fault; empty for a fault that leaves no rows out.
@@ -153,7 +153,7 @@ pub struct FaultReport {
 }
 
 impl FaultReport {
-    /// True if the fault changes labels or times, and no picture or signal, so that no check of these can find it.
+    /// True if the fault changes labels or times, but neither pictures nor signals. No check of pictures or signals can then find it.
     pub fn keeps_inputs(&self) -> bool {
         let mut known = LISTS.iter().flat_map(|list| list.faults);
         known.any(|fault| fault.id == self.id && (fault.is_of_labels() || fault.is_of_rows()))
@@ -176,11 +176,11 @@ pub struct SeverityReport {
     pub severity: u8,
     /// Parameter of the fault.
     pub parameter: f64,
-    /// Mean change of the scored pictures or signals, as a share of the change by contact.
+    /// Mean change of the scored pictures or signals, as a share of the change by contact; `None` if the change by contact is unknown.
     pub stimulus: Option<f64>,
     /// True if the stimulus is below 0.05, so that the fault hardly changes the pictures or signals.
     pub low_stimulus: bool,
-    /// Codes of the checks of pictures or taxels that find the fault, in every draw, and find nothing without it.
+    /// Codes of the checks of pictures or taxels that find the fault in every draw, and find nothing without the fault.
     pub check: Vec<&'static str>,
     /// Scores with an untouched picture from before the fault.
     pub stale: ByChannel<CellScore>,

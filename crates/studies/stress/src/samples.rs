@@ -103,7 +103,7 @@ pub(crate) fn shares(dataset: &Dataset, rows: &[usize]) -> Option<Vec<f64>> {
     Some(elapsed.iter().map(|time| time / whole).collect())
 }
 
-/// Time of each row of `dataset` since its first row, s; that of the last for a row without a time. `None` as for [`shares`].
+/// Time of each row of `dataset` since its first row, s. A row without a time gets the time of the last row. `None` as for [`shares`].
 pub(crate) fn elapsed_s(dataset: &Dataset, rows: &[usize]) -> Option<Vec<f64>> {
     let times = dataset.table().t_s();
     let known = || times.iter().copied().flatten();

@@ -341,7 +341,7 @@ impl Scored {
         ends[0].is_finite().then_some(ends)
     }
 
-    /// True if the end of skill is not shown for every channel that has a skill, or if none has one.
+    /// True if the skill of a channel is shown to be above 0, or has no interval. Also true if no channel has a skill.
     pub(crate) fn has_skill(&self) -> bool {
         let known = || self.skill.values().filter(|skill| skill.value.is_some());
         known().next().is_none() || known().any(|skill| skill.is_above_zero() != Some(false))

@@ -59,7 +59,7 @@ impl Default for StressRequest {
     }
 }
 
-/// Name of the list of the faults that `model` is tested with if none is named.
+/// Name of the default list of faults for `model`.
 pub fn usual_list(model: &Model) -> &'static str {
     match reads_signals(model) {
         true => TAXEL_LIST,
@@ -68,7 +68,7 @@ pub fn usual_list(model: &Model) -> &'static str {
 }
 
 impl StressRequest {
-    /// The wanted faults, if severities and draws are valid. With `has_others` none has to be named.
+    /// The requested faults. Rejects invalid severities and draws, and an empty list of faults unless `has_others`.
     fn checked(&self, has_others: bool) -> Result<Vec<&'static Fault>, EvaluateError> {
         let refused = |words: &str| Err(EvaluateError::Request(words.to_owned()));
         let chosen = match self.faults.is_empty() && has_others {
@@ -184,7 +184,7 @@ impl Setup {
         })
     }
 
-    /// All faults that are tested: those of pictures, labels, taxels and rows.
+    /// All tested faults: faults of pictures, labels, taxels and rows.
     pub(crate) fn all(&self) -> Vec<&'static Fault> {
         let kinds = [
             &self.faults,
@@ -239,7 +239,7 @@ impl SkippedFault {
         }
     }
 
-    /// A fault of a plugin, which a model of signals cannot see.
+    /// Skip of a plugin's fault, because a model of signals reads no pictures.
     pub(crate) fn unseen(fault: &dyn PictureFault) -> SkippedFault {
         SkippedFault {
             fault: fault.name().to_owned(),
@@ -248,7 +248,7 @@ impl SkippedFault {
     }
 }
 
-/// Rejects a recording without pictures for a model that reads them, and one whose samples the model has all seen: no request can test them.
+/// Rejects a recording without pictures for a model of pictures. Also rejects a recording whose samples the model has all seen.
 fn require_testable(dataset: &Dataset, model: &Model) -> Result<(), EvaluateError> {
     let refused = |words: &str| {
         let path = shown(dataset.path());

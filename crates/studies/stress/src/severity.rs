@@ -124,7 +124,7 @@ impl Levels {
                     (parameter, stimulus(parameter))
                 }
             };
-            // A parameter of the next target has the severity of that one.
+            // A stimulus that reaches the next target belongs to a higher severity.
             let next = TARGETS.get(at + 1).copied().unwrap_or(f64::INFINITY);
             match (target..next).contains(&most) {
                 true => levels.reached.push(Level {
@@ -143,7 +143,7 @@ impl Levels {
     }
 }
 
-/// Least known parameter with a stimulus of at least `target`, by bisection of its logarithm. Depends on no other target.
+/// Least known parameter with a stimulus of at least `target`, by bisection of its logarithm. Other targets have no influence.
 fn solve(target: f64, most: f64, stimulus: impl Fn(f64) -> f64) -> f64 {
     let mut low = LEAST * most;
     let mut high = most;

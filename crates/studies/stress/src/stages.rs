@@ -19,7 +19,7 @@ pub(crate) struct Pictures<'a> {
     pub(crate) rows: &'a [usize],
     /// Time of each row of the table, a share of the duration.
     pub(crate) shares: &'a [f64],
-    /// Untouched picture of the recording.
+    /// Untouched picture of the recording; `None` if unknown.
     pub(crate) reference: Option<&'a Frame>,
     pub(crate) scorer: &'a Scorer<'a>,
     pub(crate) work: Work<'a>,

@@ -53,13 +53,13 @@ impl<'m> Stress<'m> {
         }
     }
 
-    /// The same with the markers of the untouched picture. Without them, a fault of markers changes no picture.
+    /// The same fault with the markers of the untouched picture. Without markers, a fault of markers changes no picture.
     #[must_use]
     pub fn with_markers(self, markers: Option<&'m MarkerTracker>) -> Stress<'m> {
         Stress { markers, ..self }
     }
 
-    /// The same at a share of the duration of the recording, from 0 to 1. Only a fault that grows with time depends on it.
+    /// The same fault at a share of the duration of the recording, from 0 to 1. Only a fault that grows with time depends on this share.
     #[must_use]
     pub fn at(self, share: f64) -> Stress<'m> {
         match self.fault.grows() {
@@ -114,7 +114,7 @@ impl<'m> Stress<'m> {
     }
 
     /// The numbers `signals` with the fault, `hours` after the first sample. `full_scale` has the greatest change by contact of each number of a taxel.
-    /// A fault that is not one of taxels changes none.
+    /// A fault of another kind changes no signals.
     pub fn apply_to_signals(&self, signals: &Signals, full_scale: &[f64], hours: f64) -> Signals {
         let change = match self.fault.effect {
             Effect::Taxels(of) if self.parameter > 0.0 => of.change,

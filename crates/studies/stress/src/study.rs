@@ -43,7 +43,7 @@ pub fn stress(
     stress_beside(dataset, model, request, OtherFaults::default(), work)
 }
 
-/// Same as [`stress`], with the faults in `others` after those of `request`. Without a name in `request.faults`, they are the only ones.
+/// Same as [`stress`], with the faults in `others` after the faults of `request`. If `request` names no fault, only `others` are tested.
 ///
 /// # Errors
 /// Errors of [`stress`].
@@ -58,7 +58,7 @@ pub fn stress_beside(
     measure(dataset, model, setup, request, others, work)
 }
 
-/// Same as [`stress_beside`] for the samples of `target`, which the caller knows that the model has not seen. Its part replaces that of `request`.
+/// Same as [`stress_beside`] for the samples of `target`, which the caller knows to be unseen. The part in `request` is ignored.
 ///
 /// # Errors
 /// Errors of [`stress`].
@@ -302,7 +302,7 @@ impl Results<'_> {
         }
     }
 
-    /// Codes of the checks that find the fault in every draw, and nothing without it.
+    /// Codes of the checks that find the fault in every draw, and find nothing without the fault.
     fn check(&self, at: usize) -> Vec<&'static str> {
         let draws = &self.found.cells[at].draws;
         let of_draw = |draw: usize| {
@@ -321,7 +321,7 @@ impl Results<'_> {
         found
     }
 
-    /// True if the check of untouched pictures finds the fault, which is in the pictures of contact too.
+    /// True if the check of untouched pictures finds the fault. The fault is also in the pictures of contact.
     fn is_noticed(&self, stress: &Stress<'_>) -> bool {
         let Some(reference) = self.scale.reference() else {
             return false;

@@ -12,7 +12,7 @@ use crate::scale::{contact_rows, least_loaded, mean};
 /// # Units
 /// The unit of the signals.
 pub(crate) struct TaxelScale {
-    /// Statistics of no sample, with the mean signals without contact if the recording declares them.
+    /// Statistics without samples, with the mean signals without contact if the recording declares them.
     pub(crate) facts: SignalFacts,
     /// Mean change of a number by contact; `None` if it is unknown or zero.
     pub(crate) contact: Option<f64>,
@@ -23,7 +23,7 @@ pub(crate) struct TaxelScale {
 }
 
 impl TaxelScale {
-    /// Scale of `rows`; `None` without signals. The untouched signals are the mean of the rows without contact, otherwise those of the least load.
+    /// Scale of `rows`; `None` without signals. The untouched signals are the declared mean without contact, or the signals of the least load.
     pub(crate) fn of(
         dataset: &Dataset,
         rows: &[usize],

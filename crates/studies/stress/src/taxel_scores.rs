@@ -69,7 +69,7 @@ impl TaxelTest {
         let clean = model.reads_features();
         let clean = clean.then(|| model_extractor(dataset, model)).transpose()?;
         let predictor = Predictor { model, clean };
-        // Only a fault that grows with time reads times, and it is skipped without them.
+        // Only a fault that grows with time reads times. Without times, this fault is skipped.
         let elapsed = elapsed_s(dataset, rows);
         let elapsed = elapsed.unwrap_or_else(|| vec![0.0; dataset.table().rows()]);
         let hours: Vec<f64> = elapsed.iter().map(|time| time / HOUR_S).collect();

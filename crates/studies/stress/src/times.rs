@@ -17,7 +17,7 @@ pub(crate) fn time_scores(
     dataset: &Dataset,
     rows: &[usize],
 ) -> Result<ByChannel<TimeScore>, EvaluateError> {
-    // A batch has a channel; times need none.
+    // A batch needs a channel, although times do not.
     let channels = Channels::new([Channel::FZ]).expect("one channel");
     let plan = MetricPlan::new(&catalogue::select([OF_SENSOR])?, channels, dataset.fields());
     let unknown: [Column; 1] = [rows.iter().map(|_| None).collect()];
@@ -41,7 +41,7 @@ pub(crate) fn time_scores(
     Ok(scores.collect())
 }
 
-/// True if the times of all rows of `dataset` are those of a stream, so that a frame rate is defined.
+/// True if the times of all rows of `dataset` form a stream, so that a frame rate is defined.
 pub(crate) fn is_stream(dataset: &Dataset) -> Result<bool, EvaluateError> {
     let scores = time_scores(dataset, &dataset.all_rows())?;
     Ok(scores.get(METRICS[0]).is_some_and(|of| of.value.is_some()))

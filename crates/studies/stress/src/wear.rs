@@ -182,7 +182,7 @@ impl Measured {
         notes.collect()
     }
 
-    /// Change of the untouched picture from the untouched picture of `first`, relative to the change by contact in `first`.
+    /// Change of the untouched picture from the untouched picture of `first`, relative to the change by contact in `first`; `None` if unknown.
     fn stimulus(&self, first: &Measured) -> Option<f64> {
         let (own, before) = (self.untouched.as_ref()?, first.untouched.as_ref()?);
         let contact = first.contact.filter(|_| own.info() == before.info())?;

@@ -224,7 +224,7 @@ impl NewGel<'_> {
         Ok(all)
     }
 
-    /// True if the check of untouched pictures finds the fault, and the number of pictures decoded for it.
+    /// True if the check of untouched pictures finds the fault. Also returns the number of pictures decoded for the check.
     fn is_noticed(&self, worn: &Dataset, rows: &[usize]) -> Result<(bool, u64), EvaluateError> {
         let after = Scale::of(worn, rows)?;
         let rest = after.untouched.filter(|_| after.is_reference);

@@ -27,7 +27,7 @@ pub enum StudyError {
 }
 
 impl StudyError {
-    /// True if a device failed, as opposed to invalid input or a failed file operation.
+    /// Kind of the error, in the common list of error kinds.
     pub fn kind(&self) -> ErrorKind {
         match self {
             StudyError::Acquire(error) => error.kind(),
@@ -36,12 +36,12 @@ impl StudyError {
         }
     }
 
-    /// True if a device failed, not the user's input, a read or a write.
+    /// True if a device failed, as opposed to invalid input or a failed file operation.
     pub fn is_of_device(&self) -> bool {
         matches!(self, StudyError::Acquire(error) if error.is_of_device())
     }
 
-    /// True if the command line is at fault, not a file.
+    /// True if the command line is invalid, as opposed to a file.
     pub fn is_usage(&self) -> bool {
         match self {
             StudyError::Acquire(error) => error.is_usage(),

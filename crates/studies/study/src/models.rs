@@ -176,7 +176,7 @@ pub(crate) fn folds(planned: &PlannedStudy) -> Option<usize> {
     usize::try_from(folds.value).ok()
 }
 
-/// File of the fitted model that the scene names, relative to the folder of the scene.
+/// File of the fitted model that the scene names, if any, relative to the folder of the scene.
 pub(crate) fn model_file(planned: &PlannedStudy) -> Option<&str> {
     let model = planned.study.model.as_ref()?;
     Some(model.file.as_ref()?.value.as_str())

@@ -118,7 +118,7 @@ pub fn acquire_scene(
     let done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
     let done: Vec<Result<Dataset, StudyError>> = done.into_iter().flatten().collect();
     let (datasets, mut errors): (Vec<_>, Vec<_>) = done.into_iter().partition(Result::is_ok);
-    // Cancelled studies sort after the one that failed.
+    // The study that failed sorts before the cancelled studies.
     errors.sort_by_key(|result| matches!(result, Err(error) if is_cancelled(error)));
     errors.into_iter().chain(datasets).collect()
 }

@@ -75,7 +75,7 @@ impl ScoredWidth {
             return Err(NoWidth::NoSamples);
         }
         let of_sample = axes.len() as f64;
-        // Without a point of several samples, nothing shows that more of them would help.
+        // Without points of several samples, the spread within a point is unknown, so more samples count as useless.
         let [between, within] = OneWay::of(errors.values().map(Vec::as_slice))
             .map_or([1.0, 0.0], |model| {
                 [model.between, model.within].map(|deviation| deviation * deviation)
@@ -134,13 +134,13 @@ impl ScoredWidth {
         Some(self.ratio.powf(factor) - 1.0)
     }
 
-    /// Least number of points, at most `most`, whose expected width with `samples` samples each is at most `width`.
+    /// Least number of points, at most `most`, whose expected width with `samples` samples each is at most `width`; `None` if no number suffices.
     pub fn needed(&self, width: f64, samples: f64, most: usize) -> Option<usize> {
         let reaches = |points: usize| {
             let expected = self.expected(TestedPoints { points, samples });
             expected.is_some_and(|expected| expected <= width)
         };
-        // One point more than can be named gives fewer clusters, and so a wider interval.
+        // With one point more than `NAMED_CLUSTERS`, points share clusters, which gives fewer clusters and a wider interval.
         let named = LEAST_CLUSTERS..most.min(NAMED_CLUSTERS) + 1;
         let hashed = NAMED_CLUSTERS + 1..most + 1;
         let mut ranges = [named, hashed].into_iter();
@@ -179,7 +179,7 @@ fn clusters(points: usize) -> usize {
     }
 }
 
-/// First number of `range` for which `holds`, which then holds for all greater ones.
+/// First number of `range` for which `holds` returns true; `None` without such a number. `holds` must then return true for all greater numbers.
 fn first(range: Range<usize>, holds: impl Fn(usize) -> bool) -> Option<usize> {
     let (mut least, mut found) = (range.start, range.end.checked_sub(1)?);
     if found < least || !holds(found) {

@@ -92,7 +92,7 @@ pub(crate) fn assess(
     for (number, state) in states.iter().enumerate() {
         write_state(state, &state_path(number))?;
     }
-    // An interrupted run of another version may have left more.
+    // An interrupted run of another version may have left more states.
     let mut number = states.len();
     while std::fs::remove_file(state_path(number)).is_ok() {
         number += 1;

@@ -62,7 +62,7 @@ pub(crate) struct Group<'a> {
 }
 
 impl Group<'_> {
-    /// Mean over seeds of the validation error of `channel`, with its unit.
+    /// Mean over seeds of the validation error of `channel`, with its unit; `None` if a result lacks this error.
     pub(crate) fn validation(&self, channel: &str) -> Option<(f64, &str)> {
         let mut sum = 0.0;
         let mut unit = None;
@@ -83,7 +83,7 @@ impl Group<'_> {
         scores.collect()
     }
 
-    /// Names of the recording and the split of the group.
+    /// Names of the recording and the split of the group; `None` for the default split.
     pub(crate) fn place(&self) -> (&str, Option<&str>) {
         (self.dataset, self.split)
     }

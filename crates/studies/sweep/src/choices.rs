@@ -48,7 +48,7 @@ pub(crate) fn choices(groups: &[Group<'_>], channels: &[String]) -> Vec<Choice> 
                     })
                 })
                 .collect();
-            // Of equals, the first in the file.
+            // If several have the most seeds, the first one in the file is used.
             let most = known.iter().rev().max_by_key(|of| of.seeds.len());
             let candidates = known
                 .iter()

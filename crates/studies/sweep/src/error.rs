@@ -49,7 +49,7 @@ pub enum SweepError {
     Changed {
         /// Path of the file or folder, or name of the model.
         path: PathBuf,
-        /// Description of what changed.
+        /// Description of the change.
         problem: String,
     },
     /// An input or output operation failed.
@@ -86,7 +86,7 @@ impl SweepError {
         }
     }
 
-    /// True if the sweep file or the arguments are wrong. No data has been read in this case.
+    /// True if the user's input is invalid, as opposed to the sweep file or the data.
     pub fn is_usage(&self) -> bool {
         match self {
             SweepError::Condition { .. } => true,

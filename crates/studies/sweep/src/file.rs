@@ -37,7 +37,7 @@ pub struct SweepFile {
     pub name: String,
     /// Folders of recordings, or patterns of folders, relative to the folder of the file.
     pub datasets: Vec<String>,
-    /// View to read from recordings with several pictures per sample; `left+right` joins two views side by side.
+    /// View to read from recordings with several pictures per sample, if stated; `left+right` joins two views side by side.
     pub view: Option<String>,
     /// Scenes whose recordings are acquired first: files relative to the folder of the file, or names of built-in scenes.
     pub scenes: Vec<String>,
@@ -51,15 +51,15 @@ pub struct SweepFile {
     pub splits: Vec<Option<String>>,
     /// Names of metrics and of groups of metrics.
     pub metrics: Vec<String>,
-    /// Path of the file of sensor facts.
+    /// Path of the file of sensor facts, if any.
     pub sensor: Option<PathBuf>,
-    /// Path of the file of limits, against which each unit is checked.
+    /// Path of the file of limits, if any, against which each unit is checked.
     pub limits: Option<PathBuf>,
     /// Varied settings, each with its list of values.
     pub vary: BTreeMap<String, Vec<String>>,
     /// Conditions that select combinations to skip.
     pub skip: Vec<Condition>,
-    /// Tables that are scored in shards. A sweep has either tables, or recordings and models.
+    /// Tables that are scored in shards, if any. A sweep has either tables, or recordings and models.
     pub tables: Option<TablesEntry>,
     /// Resources that Slurm jobs request.
     pub slurm: SlurmSpec,

@@ -28,9 +28,9 @@ pub struct Grid {
     pub tasks: Vec<Task>,
     /// Number of combinations that `[skip]` excludes.
     pub skipped: usize,
-    /// Tables that were planned; their shards are the tasks.
+    /// Planned tables, whose shards are the tasks; `None` without tables.
     pub(crate) tables: Option<PlannedTables>,
-    /// Tables with tasks that were planned; their shards are the tasks.
+    /// Planned tables with tasks to score, whose shards are the tasks of the sweep; `None` without such tables.
     pub(crate) label_tables: Option<PlannedLabels>,
 }
 
@@ -40,7 +40,7 @@ impl Grid {
     /// once the recording exists.
     ///
     /// # Errors
-    /// [`SweepError`] for a grid that is empty or exceeds [`MOST_TASKS`](crate::MOST_TASKS), for an unknown model, setting or metric, and for an
+    /// [`SweepError`] for a grid that is empty or exceeds [`MOST_TASKS`](crate::MOST_TASKS). Also for an unknown model, setting or metric, and for an
     /// unreadable recording or table.
     pub fn of(
         file: &SweepFile,

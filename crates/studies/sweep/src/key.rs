@@ -29,11 +29,11 @@ pub(crate) struct KeyParts<'a> {
     pub(crate) split: Option<&'a str>,
     pub(crate) seed: u64,
     pub(crate) metrics: &'a [String],
-    /// Digest of the file of sensor facts.
+    /// Digest of the file of sensor facts, if any.
     pub(crate) sensor: Option<Digest>,
-    /// Build of the plugin that provides the model.
+    /// Build of the plugin that provides the model; `None` for a built-in model.
     pub(crate) plugin: Option<&'a str>,
-    /// Task whose labels are predicted.
+    /// Task whose labels are predicted; `None` for channels.
     pub(crate) labels: Option<&'a str>,
 }
 

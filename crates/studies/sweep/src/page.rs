@@ -28,7 +28,7 @@ pub(crate) fn results(list: &TaskList, loaded: &[Loaded<'_>], collected: &Collec
     };
     if !collected.units.is_empty() {
         let units = PagePart::Table(units::table(&collected.units));
-        // Behind the best configurations or the scores.
+        // After the first section: the best configurations or the scores.
         sections.insert(1, section("units", "Units", vec![units]));
     }
     let left = left(loaded);

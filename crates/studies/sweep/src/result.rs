@@ -86,8 +86,8 @@ impl TaskResult {
         self
     }
 
-    /// Adds those of `scores` of the labels called `name` whose metric is among `wanted`, with the score of the best constant. A wanted metric that
-    /// the labels lack has a reason. Scores of single classes are stored only in the evaluation.
+    /// Adds the `scores` of the labels called `name` whose metric is among `wanted`, with the score of the best constant. A wanted metric without a
+    /// score gets a reason. Scores of single classes are stored only in the evaluation.
     pub(crate) fn add_label_scores(&mut self, name: &str, scores: &[Score], wanted: &[String]) {
         let is_wanted = |score: &&Score| {
             wanted
@@ -119,7 +119,7 @@ impl TaskResult {
         scores.find(|score| score.metric == metric && score.channel == channel)
     }
 
-    /// Absolute errors of a channel by group or contact point.
+    /// Absolute errors of a channel by group or contact point; `None` if the result has no errors of the channel.
     pub(crate) fn sums(&self, channel: &str) -> Option<ClusterSums> {
         let mut sums = ClusterSums::default();
         for (point, n, sum) in self.errors.get(channel)? {

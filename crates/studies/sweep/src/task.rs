@@ -36,7 +36,7 @@ pub struct Task {
     pub split: Option<String>,
     /// Seed of the split and of the random draws of the model.
     pub seed: u64,
-    /// Build of the plugin that provides the model, at the time of planning.
+    /// Build of the plugin that provides the model, at the time of planning; `None` for a built-in model.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plugin: Option<String>,
 }
@@ -45,7 +45,7 @@ pub struct Task {
 pub(crate) const SHARD: &str = "shard";
 
 impl Task {
-    /// Value of `name` in this task. The name is a setting, or `dataset`, `task`, `model`, `split` or `seed`.
+    /// Value of `name` in this task; `None` if the task has no such value. The name is a setting, or `dataset`, `task`, `model`, `split` or `seed`.
     pub fn word(&self, name: &str) -> Option<String> {
         match name {
             "dataset" => Some(self.dataset.clone()),
@@ -64,7 +64,7 @@ impl Task {
         format!("{}{}", self.model, settings.collect::<String>())
     }
 
-    /// Direction of good values of a score of this task.
+    /// Direction in which a score of this task is better.
     pub(crate) fn better(&self, score: &Score) -> Better {
         let unit = (score.unit != Unit::One).then(|| score.unit.symbol());
         match &self.labels {
@@ -81,7 +81,7 @@ impl Task {
         }
     }
 
-    /// Split, or the words for its default: as recorded, or by the clusters of a task.
+    /// Text of the split or of its default: as recorded, or by the clusters of a task.
     pub(crate) fn division(&self) -> &str {
         match (&self.split, &self.labels) {
             (Some(split), _) => split,

@@ -28,26 +28,26 @@ pub struct TaskList {
     file: Digest,
     /// Name of the sweep.
     pub name: String,
-    /// View of recordings whose samples have several pictures.
+    /// View of recordings whose samples have several pictures, if stated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub view: Option<String>,
     /// Names of metrics and of groups of metrics.
     pub metrics: Vec<String>,
-    /// File of sensor facts.
+    /// File of sensor facts, if any.
     pub sensor: Option<PathBuf>,
-    /// Digest of the file of sensor facts, at the time of planning.
+    /// Digest of the file of sensor facts at the time of planning; `None` without such a file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) sensor_digest: Option<Digest>,
-    /// Path of the file of limits, against which each unit is checked.
+    /// Path of the file of limits, if any, against which each unit is checked.
     pub limits: Option<PathBuf>,
     /// Varied settings, each with its values in order.
     pub vary: Vec<(String, Vec<String>)>,
     /// Tasks, in the order of the table.
     pub tasks: Vec<Task>,
-    /// Planned tables; their shards are the tasks.
+    /// Planned tables, whose shards are the tasks; `None` without tables.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) tables: Option<PlannedTables>,
-    /// Planned tables with tasks; their shards are the tasks.
+    /// Planned tables with tasks to score, whose shards are the tasks of the list; `None` without such tables.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) label_tables: Option<PlannedLabels>,
 }

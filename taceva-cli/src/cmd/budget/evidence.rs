@@ -80,7 +80,7 @@ impl Measured {
                 Err(reason) => measured.lacks(figure, &reason),
             }
         }
-        // Other channels count from no zero, so nothing is absent there.
+        // Only depths have a zero, so other channels do not lack this figure.
         if channel.name == "Pz" {
             match found.zero(channel) {
                 Ok(value) => measured.take(|evidence| evidence.with(ZERO, value)),
@@ -220,7 +220,7 @@ impl Found {
         })
     }
 
-    /// Uncertainty of the heights from which depths count.
+    /// Uncertainty of the heights relative to which depths are measured.
     fn zero(&self, channel: &Channel) -> Result<Figure, String> {
         let mut figure = depth_zero_figure(self.samples()?, &channel.name)?;
         let table = &self.report.provenance.samples_table;

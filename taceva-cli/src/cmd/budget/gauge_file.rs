@@ -120,7 +120,7 @@ impl Study {
         match name {
             "repeatability" => row(&["pooled", "repeatability"]).map_or(of_operators, |row| row.df),
             "operator" => {
-                // Operators differ beyond the next lower mean square: pooled, of the interaction, or of nested parts.
+                // The mean square of operators is compared with the next lower mean square: pooled, interaction, or nested parts.
                 let rows = row(&["operator"]).zip(row(&["pooled", "interaction", "part"]));
                 let freedom = rows.map(|(own, next)| {
                     let [a, b] = [own, next].map(mean_square);

@@ -7,7 +7,7 @@ use super::super::{Usage, results};
 use crate::args::{Compare, Format};
 use crate::{exit, output};
 
-/// Compares the results if one of them has scores of tasks; `None` if none has.
+/// Compares the results if one of them has scores of tasks; `None` without scores of tasks.
 pub(super) fn run(args: &Compare) -> anyhow::Result<Option<u8>> {
     let mut found: Vec<TaskResult> = Vec::new();
     let mut others = Vec::new();

@@ -64,7 +64,7 @@ impl Factor {
         })
     }
 
-    /// Label of a row: the cell of a single column, or `point_id=a, depth_step=3` for several columns.
+    /// Label of a row: the cell of a single column, or `point_id=a, depth_step=3` for several columns. `None` if one of their cells is empty.
     fn label<'t>(&self, table: &'t CsvTable, row: usize) -> Option<Cow<'t, str>> {
         let cell = |column: usize| {
             let cell = unescape_csv(table.cell(row, column));

@@ -229,7 +229,7 @@ struct Place {
     /// Byte offset of the place in the line.
     at: usize,
     key: String,
-    /// Channel or column at the beginning of the line.
+    /// Channel or column at the beginning of the line, if any.
     subject: Option<String>,
     /// Kind of the place, such as the unit of a force. Places of one kind likely have the same answer.
     kind: String,

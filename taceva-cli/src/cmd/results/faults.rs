@@ -62,7 +62,7 @@ fn of_file(path: &Path) -> anyhow::Result<Option<FaultResult>> {
     faults.transpose().with_context(|| shown(path).to_string())
 }
 
-/// Errors with faults of each of the `count` studies in the results `file`; none for results that are not of a run.
+/// Errors with faults of each of the `count` studies in the results `file`; `None` for a study without such errors.
 fn of_run(file: &Path, count: usize) -> anyhow::Result<Vec<Option<FaultResult>>> {
     let folder = file.with_file_name(STRESS);
     let is_run = file.file_name().is_some_and(|name| name == RESULTS);
@@ -87,7 +87,7 @@ fn of_run(file: &Path, count: usize) -> anyhow::Result<Vec<Option<FaultResult>>>
     Ok(faults)
 }
 
-/// Errors with faults of the result `path`, the folder of a run or a file with `count` studies.
+/// Errors with faults of each of the `count` studies of the result `path`, which is a file or the folder of a run.
 pub(in crate::cmd) fn faults_of(
     path: &Path,
     count: usize,

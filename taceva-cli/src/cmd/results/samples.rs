@@ -45,7 +45,7 @@ pub(super) fn beside(file: &Path, mut studies: Vec<Study>) -> anyhow::Result<Fou
     Ok(Found { studies, missing })
 }
 
-/// Table of samples of one evaluation: `own`, named like the result, or another table in the folder with the digest in the result.
+/// Table of samples of one evaluation, if any: `own`, named like the result, or another table in the folder with the digest in the result.
 fn of_evaluation(own: &Path, study: &Study, is_alone: bool) -> anyhow::Result<Option<PathBuf>> {
     if !is_alone || own.is_file() {
         return Ok(Some(own.to_owned()).filter(|_| is_alone));
@@ -69,7 +69,7 @@ fn of_evaluation(own: &Path, study: &Study, is_alone: bool) -> anyhow::Result<Op
     Ok(None)
 }
 
-/// Digest of the table of samples, as the results of `study` state it.
+/// Digest of the table of samples, if the results of `study` state it.
 fn digest(study: &Study) -> Option<&str> {
     let mut provenance = study.provenance.iter();
     provenance.find_map(|(name, text)| (name == "samples_table").then_some(text.as_str()))

@@ -67,7 +67,7 @@ pub(in crate::cmd) fn check(planned: &PlannedScene, drivers: &Drivers) -> anyhow
     Ok(())
 }
 
-/// Fault of a gel called `name`.
+/// Fault of a gel called `name`; `None` for other faults.
 fn gel_fault(name: &str) -> Option<GelFault> {
     GelFault::from_name(name.trim())
 }
@@ -123,7 +123,7 @@ fn by_severity(count: usize) -> String {
     }
 }
 
-/// Number of faults that `study` is tested with if the scene names none, as text. The input of a model file is unknown before the run.
+/// Number of default faults for `study`, as text. The input of a model file is unknown before the run.
 fn usual_faults(study: &PlannedStudy) -> String {
     let (pictures, taxels) = (FAULTS.len(), TAXEL_FAULTS.len());
     let model = study.study.model.as_ref();
@@ -139,12 +139,12 @@ fn usual_faults(study: &PlannedStudy) -> String {
     }
 }
 
-/// True if the samples of `study` are those of a recording, which may have signals.
+/// True if the samples of `study` come from a recording, which may have signals.
 fn is_recorded(study: &PlannedStudy) -> bool {
     study.study.sensor.dataset.is_some()
 }
 
-/// Samples of `study` for the faults, and their reading, as text; `None` if no metric reads predictions.
+/// Text on the samples of `study` for the faults, and on their decoding; `None` if no metric reads predictions.
 fn samples(study: &PlannedStudy) -> Option<String> {
     let plan = &study.plan;
     let is_predicted = plan.fits.iter().any(|fit| fit.field == Field::Prediction);
@@ -171,7 +171,7 @@ fn tested(study: &PlannedStudy) -> Vec<&PlannedPress> {
 
 /// Faults of a scene.
 struct Wanted {
-    /// Request for faults that are no faults of a gel; it names no fault if only gels are tested.
+    /// Request without the faults of a gel. It names no fault if only gels are tested.
     request: StressRequest,
     /// True if the scene names no fault.
     is_usual: bool,
@@ -188,7 +188,7 @@ impl Wanted {
             names.collect()
         });
         let names: Vec<String> = names.unwrap_or(usual.faults);
-        // Each once and in one order, so that lists of the same faults are equal.
+        // Each fault once and in a fixed order, so that lists of the same faults are equal.
         let is_named = |gel: &GelFault| names.iter().any(|name| gel_fault(name) == Some(*gel));
         let gels = GelFault::ALL.into_iter().filter(is_named).collect();
         let pictures = names.into_iter().filter(|name| gel_fault(name).is_none());
@@ -256,7 +256,7 @@ pub(super) fn test(run: &TestedRun<'_>, studies: Vec<FinishedStudy>) -> anyhow::
             }
         }
         if faults.is_none() {
-            // A run that goes on with another [stress] may have left some.
+            // A run that was resumed with another [stress] may have left this file.
             drop(fs::remove_file(folder.stress(number, name)));
         }
         for note in &notes {

@@ -32,7 +32,7 @@ const FIRST: Duration = Duration::from_secs(5);
 pub struct LiveSpec {
     sensor: Named,
     force: Option<Named>,
-    /// Axes of the transducer that correspond to the axes of the sensor, from the rig file.
+    /// Axes of the transducer that correspond to the axes of the sensor, if the rig file names the transducer.
     axes: Option<SignedAxes>,
     is_emulated: bool,
 }
@@ -41,9 +41,9 @@ pub struct LiveSpec {
 #[derive(Clone, Debug)]
 struct Named {
     selector: Selector,
-    /// Latency from the rig file, in ms.
+    /// Latency in ms, if the rig file states it.
     latency_ms: Option<f64>,
-    /// Certificate from the rig file.
+    /// Certificate, if the rig file has one.
     certificate: Option<Certificate>,
     /// Origin of the selector, for messages: a command-line option or the rig file.
     by: String,

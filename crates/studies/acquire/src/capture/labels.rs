@@ -145,7 +145,7 @@ impl Labels {
         Ok((streamed, taken.stamp.valid_s))
     }
 
-    /// Normal force of a sample, in N.
+    /// Normal force of a sample, in N; `None` if it is unknown or not measured.
     pub(super) fn normal_n(&self, sample: &Sample) -> Option<f64> {
         let position = self.channels.position(Channel::FZ.name())?;
         sample.truth.get(position)

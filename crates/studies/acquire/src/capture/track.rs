@@ -61,7 +61,7 @@ impl Track {
         }
     }
 
-    /// Last reading.
+    /// Last reading; `None` before the first reading.
     pub(super) fn newest(&self) -> Option<Wrench> {
         self.readings().back().map(|(_, wrench)| *wrench)
     }

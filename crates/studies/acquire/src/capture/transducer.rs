@@ -64,7 +64,7 @@ impl Transducer {
         self.facts.rate.map_or(UNKNOWN_S, |rate| 1.0 / rate.0)
     }
 
-    /// Adds readings to `track` until the capture ends. Skips equal readings in cases where the load or the noise must change them.
+    /// Adds readings to `track` until the capture ends. Skips a reading equal to the last one if the load or the noise must have changed it.
     ///
     /// # Errors
     /// The error that ended the stream of readings: a lost device, a timeout, or a frozen signal.

@@ -24,7 +24,7 @@ pub(super) struct OpenChanger {
 }
 
 impl OpenChanger {
-    /// Opens the changer `device` of `rig`. Nothing moves.
+    /// Opens the changer `device` of `rig`; `None` without a `device`. Nothing moves.
     pub(super) fn open(
         spec: &RigSpec,
         rig: &RigFile,

@@ -11,10 +11,10 @@ use taceva_core::Stamp;
 /// Duration of the first blocks, s. It doubles each time the blocks are merged, up to `BLOCK_MAX_S`.
 const BLOCK_S: f64 = 0.25;
 const BLOCK_MAX_S: f64 = 4.0;
-/// Minimum number of frames in a block, and maximum time in which these arrive, s.
+/// Minimum number of frames in a block, and maximum time for the arrival of these frames, s.
 const FRAMES: u32 = 4;
 const FRAMES_WITHIN_S: f64 = 30.0;
-/// Minimum and maximum number of blocks for a line, and minimum number for a corrected drift.
+/// Minimum and maximum number of blocks for a line, and minimum number of blocks for the correction of a drift.
 const BLOCKS_MIN: usize = 6;
 const BLOCKS_MAX: usize = 64;
 const FOLLOWED_MIN: usize = 12;
@@ -136,7 +136,7 @@ impl ClockFollower {
             && self.least.len() >= FOLLOWED_MIN
             && line.shows_drift()
         {
-            // A pause would multiply the error of the slope.
+            // During a pause, an extrapolation would multiply the error of the slope.
             let known_s = newest.at_s + CONTINUED_S / (SHOWN * line.slope_u);
             let anchor_s = *self.anchor_s.get_or_insert(line.at(oldest.at_s));
             let wanted_s = line.at(at_s.min(known_s)) - anchor_s;
@@ -221,7 +221,7 @@ impl ClockFollower {
     }
 }
 
-/// Settings that a device reports only after it was read for some time: the drift of a clock.
+/// Settings that a device measures while it is read: the drift of its clock.
 pub(crate) fn measured_settings(now: BTreeMap<String, String>) -> BTreeMap<String, String> {
     let mut settings = now;
     settings.retain(|name, _| [DRIFT, DRIFT_U].contains(&name.as_str()));

@@ -57,7 +57,7 @@ struct Opened {
     build: Option<String>,
 }
 
-/// Selectors of the devices of `rig` for `unit`.
+/// Selectors of the devices of `rig` for `unit`; `None` for a real device, or for an argument that names a file.
 fn devices(rig: &RigSpec, unit: &str, drivers: &Drivers) -> Option<[Option<Opened>; 4]> {
     fn of<D: Device + ?Sized>(
         rig: &RigSpec,

@@ -1,6 +1,6 @@
-//! Methods of devices that a wrapper passes to the wrapped device, which is in the named field.
+//! Methods that a wrapper of a device delegates to the wrapped device, which is in the named field.
 
-/// Passes on what a wrapper of a robot does not change. The wrapper has the capabilities of the robot.
+/// Delegates the methods of a robot that its wrapper does not change. The wrapper has the capabilities of the robot.
 macro_rules! delegate_robot {
     ($robot:ident) => {
         fn is_emulated(&self) -> bool {
@@ -46,7 +46,7 @@ macro_rules! delegate_robot {
     };
 }
 
-/// Passes on what a wrapper of a transducer does not change.
+/// Delegates the methods of a transducer that its wrapper does not change.
 macro_rules! delegate_force {
     ($force:ident) => {
         fn start(
@@ -90,7 +90,7 @@ macro_rules! delegate_force {
     };
 }
 
-/// Passes on what a wrapper of a sensor does not change, except its settings.
+/// Delegates the methods of a sensor that its wrapper does not change, except `settings`.
 macro_rules! delegate_sensor {
     ($sensor:ident) => {
         fn frame_info(&self) -> taceva_core::FrameInfo {

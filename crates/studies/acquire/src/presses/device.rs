@@ -40,7 +40,7 @@ impl<D: ?Sized + 'static> Opened<D>
 where
     Late<D>: IntoDevice<D>,
 {
-    /// Corrects the time stamps of the device by `latency_ms` in its facts, if positive, and by the drift of a camera's clock. Checks the timing of its samples.
+    /// Corrects time stamps by `latency_ms` of the descriptor, if positive, and by the drift of a camera's clock. Checks the timing of samples.
     pub(crate) fn timely(
         self,
         is_emulated: bool,
@@ -59,7 +59,7 @@ where
     }
 }
 
-/// Timing checks for a real sensor or transducer. An emulated device shares processors with this program, so only its time stamps are checked.
+/// Timing checks of a real sensor or transducer; `None` for other devices. An emulated device delays its samples, so only its stamps are checked.
 fn timing(descriptor: &Descriptor, is_emulated: bool) -> Option<SampleTiming> {
     let rate = match descriptor.facts() {
         Facts::Sensor(facts) => facts.rate,

@@ -36,11 +36,11 @@ pub(super) struct OpenRig {
     pub(super) force_driver: DriverKey,
     /// True for a rig in real time. Guard threads then watch motions.
     is_real: bool,
-    /// Rig file of a real rig, which is checked at the start of a session.
+    /// Rig file of a real rig, checked at the start of a session; `None` for other rigs.
     pub(super) rig_file: Option<Arc<RigFile>>,
-    /// Enabling switch.
+    /// Enabling switch, if the rig has one.
     pub(super) switch: Option<Arc<dyn EnablingSwitch>>,
-    /// Warning about late halts of the last session.
+    /// Warning about late halts of the last session; `None` if no halt was late.
     pub(super) late_halts: Option<String>,
 }
 

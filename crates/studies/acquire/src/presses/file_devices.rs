@@ -48,7 +48,7 @@ impl<'a> FileOpener<'a> {
         described.map(drop).map_err(|refused| self.refused(refused))
     }
 
-    /// Opens the changer `device`, and returns the names of its items. Nothing moves.
+    /// Opens the changer `device`, and returns the names of its items; `None` without a `device`. Nothing moves.
     ///
     /// # Errors
     /// [`AcquireError::OpenOfRig`] if the device does not open.
@@ -60,7 +60,7 @@ impl<'a> FileOpener<'a> {
         Ok(opened.map(|opened| opened.device.holds().to_vec()))
     }
 
-    /// Opens the lighting `device`, and returns the names of its scenes. The light does not change.
+    /// Opens the lighting `device`, and returns the names of its scenes; `None` without a `device`. The light does not change.
     ///
     /// # Errors
     /// Errors of [`held`](FileOpener::held).
@@ -72,7 +72,7 @@ impl<'a> FileOpener<'a> {
         Ok(opened.map(|opened| opened.device.scenes().to_vec()))
     }
 
-    /// Opens the sensor.
+    /// Opens the sensor; `None` without a sensor.
     ///
     /// # Errors
     /// Errors of [`check`](FileOpener::check). [`AcquireError::OpenOfRig`] if the device does not open.
@@ -86,7 +86,7 @@ impl<'a> FileOpener<'a> {
         }))
     }
 
-    /// Opens the force transducer, with readings in the frame of the sensor.
+    /// Opens the force transducer, with readings in the frame of the sensor; `None` without a transducer.
     ///
     /// # Errors
     /// Errors of [`sensor`](FileOpener::sensor).
@@ -106,7 +106,7 @@ impl<'a> FileOpener<'a> {
         }))
     }
 
-    /// Opens the robot, with poses in the frame of the sensor.
+    /// Opens the robot, with poses in the frame of the sensor; `None` without a robot.
     ///
     /// # Errors
     /// Errors of [`sensor`](FileOpener::sensor).
@@ -122,7 +122,7 @@ impl<'a> FileOpener<'a> {
         Ok(Some((mapped, descriptor)))
     }
 
-    /// Opens the robot, with poses in its base frame.
+    /// Opens the robot, with poses in its base frame; `None` without a robot.
     ///
     /// # Errors
     /// Errors of [`sensor`](FileOpener::sensor).
@@ -145,7 +145,7 @@ impl<'a> FileOpener<'a> {
         self.opened(registry, device)
     }
 
-    /// Opens a device whose selector was already checked.
+    /// Opens a device whose selector was already checked; `None` without a device.
     fn opened<D: Device + ?Sized>(
         &self,
         registry: &Registry<D>,

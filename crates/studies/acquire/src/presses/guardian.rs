@@ -141,14 +141,14 @@ impl Drop for Over<'_> {
 struct Watcher<'a> {
     supervisor: &'a SharedSupervisor,
     punctuality: &'a Punctuality<'a>,
-    /// True if the last turn ended during a motion, or this one saw one.
+    /// True if a motion was in progress at the end of the last turn, or during this turn.
     was_under_way: bool,
-    /// True if the last turn found a halt for a stale reading.
+    /// True if the last turn found the robot halted because of a stale reading.
     was_stale: bool,
     halts: Arc<HaltCalls>,
     follower: HaltFollower,
     watch: Option<Arc<dyn RobotWatch>>,
-    /// Last pose received.
+    /// Last pose received; `None` before the first pose.
     last: Option<(Pose, Stamp)>,
     switch: Option<&'a dyn EnablingSwitch>,
     cancel: &'a Cancel,
@@ -173,13 +173,13 @@ impl Watcher<'_> {
         self.follow_halt(call, self.was_under_way, Held::No, MonotonicClock.now_s());
     }
 
-    /// Records a turn that was late during a motion, a reading that was found stale, and a halt.
+    /// Records a late turn during a motion, a stale reading, and a halt.
     fn time(&mut self, turn: &Turn) {
         let supervisor = self.supervisor.lock();
         let [is_under_way, was_under_way] = [supervisor.is_under_way(), self.was_under_way];
         let tripped = supervisor.tripped();
         let is_held = tripped.is_some() || supervisor.fault().is_some();
-        // The lock is held during each halt, so that the call and what holds the robot belong together.
+        // Every halt holds this lock, so the call and the state of the robot belong together.
         let call = self.halts.take();
         let stale_s = match tripped {
             Some(Trip::StaleForce { age_s } | Trip::StalePose { age_s }) => Some(age_s),
@@ -203,7 +203,7 @@ impl Watcher<'_> {
         self.follow_halt(call, is_under_way || was_under_way, held, turn.ended_s);
     }
 
-    /// Notes a halt of a motion when its end is known.
+    /// Records a halt of a motion when its end is known.
     fn follow_halt(&mut self, call: Option<HaltCall>, is_under_way: bool, held: Held, now_s: f64) {
         let halted = self.follower.turn(call, is_under_way, held, now_s);
         if let Some(halted) = halted {
@@ -267,7 +267,7 @@ impl Watcher<'_> {
         }
         self.was_under_way = true;
         let now_s = MonotonicClock.now_s();
-        // A repeated pose keeps its stamp, so its age grows. The run detects a trip by its own motion.
+        // A repeated pose keeps its stamp, so its age grows. A trip is ignored here, because the run detects it by its own motion.
         let seen = self
             .last
             .map(|(pose, stamp)| Observation::UnderWay { pose, stamp });

@@ -15,7 +15,7 @@ use taceva_protocol::RigFile;
 use super::clock_follower::ClockFollower;
 use super::delegation::{delegate_force, delegate_robot, delegate_sensor};
 
-/// Latencies of robot, transducer and sensor in a rig file, in ms.
+/// Latencies of robot, transducer and sensor, in ms; `None` for each latency that the rig file does not state.
 pub(crate) fn written_latencies_ms(rig: &RigFile) -> [Option<f64>; 3] {
     let written = [
         rig.robot.as_ref().and_then(|robot| robot.latency_ms),

@@ -280,7 +280,7 @@ pub(super) fn stopped(plan: &Plan, error: RunError) -> AcquireError {
     }
 }
 
-/// Number of skipped presses, if `error` reports nothing else. Returns any other error. Later units are pressed in either case.
+/// Number of skipped presses, if these are the whole content of `error`. Returns any other error. Later units are pressed in either case.
 pub(super) fn presses_skipped(error: AcquireError) -> Result<usize, AcquireError> {
     match &error {
         AcquireError::Acquisition { source, .. } => match source.cause {

@@ -18,7 +18,7 @@ pub(super) struct Registered {
 }
 
 impl Registered {
-    /// Wraps `robot` with the registration of `registered`. If the registration lacks the rotation of the tool, the robot is asked for it within `deadline`.
+    /// Wraps `robot` with the registration of `registered`. A missing rotation of the tool is read from the robot within `deadline`.
     ///
     /// # Errors
     /// [`DriverError`] if the robot reports no pose.

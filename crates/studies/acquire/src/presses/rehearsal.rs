@@ -9,7 +9,7 @@ use super::workshop::Workshop;
 use crate::error::AcquireError;
 use crate::scene::{PlannedScene, StudySource};
 
-/// Height of a rehearsal above the travel height, in mm. With a smaller error of the origin, the tip does not touch the gel.
+/// Height of a rehearsal above the travel height, in mm. The tip does not touch the gel if the error of the origin is smaller.
 pub const AIR_MM: f64 = 10.0;
 
 /// Visits every place of `scene` at [`AIR_MM`] above the travel height. Returns the number of places.

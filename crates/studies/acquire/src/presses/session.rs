@@ -45,7 +45,7 @@ pub(super) fn touches(sessions: &[Session], plan: &Plan) -> Vec<ReferenceTouch> 
             height_mm: row.height_mm,
             depth_mm: row.depth_mm,
             force_n: row.fz_n,
-            // The strictest comparison, if a session states no uncertainty.
+            // Without a stated uncertainty, 0 gives the strictest comparison.
             height_u_mm: row.height_u_mm.unwrap_or_default(),
             force_u_n: row.fz_u_n.unwrap_or_default(),
         })

@@ -15,9 +15,9 @@ pub struct Surroundings {
     pub clock: Box<dyn Timekeeper>,
     /// Changer of specimens; `None` if all presses use a single specimen.
     pub specimens: Option<Box<dyn SpecimenChanger>>,
-    /// Callback for each press, called before the tip moves to the place of the press.
+    /// Callback for each press, called before the tip moves to the place of the press; `None` for no callback.
     pub upcoming: Option<Box<dyn FnMut(Upcoming)>>,
-    /// Name of the gel in the recording.
+    /// Name of the gel in the recording; `None` if unknown.
     pub gel: Option<String>,
     /// Simulated bench, if the rig is a simulated bench. Its clock also stamps a sensor of another bench.
     pub bench: Option<Arc<dyn SimulatedBench>>,

@@ -38,11 +38,11 @@ const NOISE_PART: f64 = 0.5;
 pub struct RigCheck {
     /// True if the devices are emulated, as the rig file or the robot states.
     pub simulated: bool,
-    /// Readings of the force transducer at rest, with noise in N.
+    /// Readings of the force transducer at rest, with noise in N; `None` without a measurement.
     pub force: Option<Stream>,
-    /// Poses of the robot at rest, with noise in mm.
+    /// Poses of the robot at rest, with noise in mm; `None` without a measurement.
     pub robot: Option<Stream>,
-    /// Frames of the sensor.
+    /// Frames of the sensor; `None` without a measurement.
     pub sensor: Option<Stream>,
     /// Enabling switch, if the rig file names a switch.
     pub switch: Option<SwitchCheck>,
@@ -189,7 +189,7 @@ impl RigCheck {
         }
     }
 
-    /// Reason why the robot must not move: a failed device, or a wrong origin with which an upward motion could go down.
+    /// Reason why the robot must not move: a failed device, or a wrong origin with which an upward motion could go down. `None` without a reason.
     fn obstacle(&self) -> Option<String> {
         let failed = self.problems.iter().filter(|problem| problem.is_failure());
         let failed: Vec<&str> = failed
@@ -283,7 +283,7 @@ impl RigCheck {
         let (from, _) = robot.pose(DEADLINE)?;
         let depth_mm = from.position.z.0;
         if depth_mm > 0.0 {
-            // It was moved since, or its pose was not read before.
+            // The robot has moved since the last pose, or its pose was not read before.
             self.problems.push(RigProblem::InGel { depth_mm });
             self.halt_left_out = self.obstacle();
             return Ok(());

@@ -27,7 +27,7 @@ pub struct Stream {
 pub(super) struct Listener {
     valid_s: Vec<f64>,
     late_s: f64,
-    /// Count, mean and sum of squared deviations of each component, updated incrementally (Welford 1962).
+    /// Count, mean and sum of squared deviations of each component, updated incrementally (Welford 1962); `None` without values.
     spread: Option<(f64, [f64; 3], [f64; 3])>,
 }
 

@@ -149,7 +149,7 @@ fn problem(weighing: &Weighing, [x_n, y_n, z_n]: [f64; 3]) -> Option<String> {
         ..
     } = *weighing;
     let of_noise_n = tolerance_n - DIFFERENCE * expected_n;
-    // Under a mistaken unit the noise is another one too.
+    // A wrong unit scales noise and measured force alike, so the greater force is the reference.
     if of_noise_n > HIDDEN * expected_n.max(measured_n) {
         return Some(format!(
             "{mass_g} g weigh {expected_n:.3} N, expected at least {of_noise_n:.3} N, 10 times the noise and step of the readings: hang a heavier weight"

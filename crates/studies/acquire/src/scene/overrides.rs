@@ -10,11 +10,11 @@ use crate::error::AcquireError;
 /// Values that replace values of a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Overrides {
-    /// Seed of all random draws of the scene.
+    /// Seed of all random draws of the scene; `None` keeps the seed of the scene.
     pub seed: Option<u64>,
-    /// Rig file whose devices replace the devices of every study that makes presses. A relative path refers to the working directory.
+    /// Rig file whose devices replace the devices of every study that makes presses, if any. A relative path refers to the working directory.
     pub rig: Option<PathBuf>,
-    /// Model of every study. It replaces the scene's model and that model's settings, and keeps its folds or split.
+    /// Model of every study, if any. It replaces the scene's model and that model's settings, and keeps its folds or split.
     pub model: Option<String>,
     /// Settings of the model, as `key=value`. Other settings of the scene are kept.
     pub set: Vec<String>,

@@ -11,7 +11,7 @@ use taceva_protocol::{
     PlannedWear, RigFile, RigInfo, Scene, SceneError, SceneProblem, Setting, Study,
 };
 
-/// Byte offset in the scene, and the problem at this offset.
+/// Byte offset in the scene, if known, and the problem at this offset.
 pub(crate) type Refused = (Option<usize>, SceneProblem);
 
 /// Devices of a study, by name.
@@ -121,8 +121,8 @@ impl RigSpec {
         })
     }
 
-    /// Selector of `device` for `unit`. It is the written selector, with seed and unit added if the driver accepts them and the scene does not set them.
-    /// A simulated gel that ages also gets the load of the presses before.
+    /// Selector of `device` for `unit`: the written selector, with seed and unit added if the driver accepts them and the scene does not set them.
+    /// A simulated gel that ages also gets the load of earlier presses.
     pub(crate) fn selector<D: Device + ?Sized>(
         &self,
         registry: &Registry<D>,
@@ -187,7 +187,7 @@ impl RigSpec {
         Ok(described.and_then(|described| Some(described.changer()?.holds.clone())))
     }
 
-    /// Descriptor of `device` for its arguments. Opens no device.
+    /// Descriptor of `device` for its arguments; `None` without a `device`. Opens no device.
     pub(crate) fn describe<D: Device + ?Sized>(
         &self,
         registry: &Registry<D>,

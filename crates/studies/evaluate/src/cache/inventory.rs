@@ -49,9 +49,9 @@ impl CacheEntry {
 pub struct Pruning {
     /// Stages whose results are removed; empty for all stages.
     pub stages: Vec<CachedStage>,
-    /// Age limit. Entries that were not used for longer than this are removed.
+    /// Age limit, if any. Entries that were not used for longer than this are removed.
     pub older_than: Option<Duration>,
-    /// Size limit in bytes. The least recently used entries are removed until the total is at most this limit.
+    /// Size limit in bytes, if any. The least recently used entries are removed until the total is at most this limit.
     pub keep: Option<u64>,
 }
 

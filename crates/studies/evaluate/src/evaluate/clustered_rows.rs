@@ -71,7 +71,7 @@ impl<'a> ClusteredRows<'a> {
         }
     }
 
-    /// Number of folds: five, or one for each of fewer clusters.
+    /// Number of folds: five, or one for each cluster if there are fewer than five clusters.
     ///
     /// # Errors
     /// [`EvaluateError::Request`] for fewer than two clusters of `task`, which `cluster` names.
@@ -88,7 +88,7 @@ impl<'a> ClusteredRows<'a> {
         )))
     }
 
-    /// Fits `fit` once for each of `folds` folds of clusters, and hands every row of `dataset` that the fit has not seen to `each`.
+    /// Fits `fit` once for each of `folds` folds of clusters. Calls `each` with every row of `dataset` that this fit has not seen.
     pub(super) fn predict_unseen(
         &self,
         dataset: &Dataset,
@@ -117,7 +117,7 @@ impl<'a> ClusteredRows<'a> {
         Ok(())
     }
 
-    /// Division in which every cluster of number `fold` modulo `folds` is tested, and all others are learnt from.
+    /// Division with the clusters whose number is `fold` modulo `folds` in the test part, and all other clusters in the training part.
     fn divided(
         &self,
         dataset: &Dataset,

@@ -1,4 +1,4 @@
-//! Scores of contact shapes of a ball: its depth map at the predicted place and depth, beside the map at the measured ones.
+//! Scores of contact shapes of a ball: depth maps at its predicted places and depths, compared with depth maps at the measured places and depths.
 
 use taceva_core::{Column, Footprint, Nanometre, counted, shown};
 use taceva_dataset::Dataset;
@@ -8,7 +8,7 @@ use taceva_tasks::{TaskScores, TaskState};
 use crate::error::EvaluateError;
 use crate::predict::Predicted;
 
-/// Column with the clusters: the depths of one press are at one place.
+/// Column with the clusters. All depths of one press are at one place.
 const CLUSTER: &str = "point_id";
 /// Channels of the place and the depth of the ball.
 const PLACE: [&str; 3] = ["Px", "Py", "Pz"];
@@ -31,7 +31,7 @@ pub struct BallPresses<'a> {
 /// A map is the spherical cap of the ball in the plane of x and y. The constant is the mean of the true maps.
 ///
 /// # Errors
-/// [`EvaluateError::Request`] for predictions without the place and depth of the ball, or of none of the rows.
+/// [`EvaluateError::Request`] for predictions without the place and depth of the ball, or without a prediction of the rows.
 pub fn contact_shapes(
     dataset: &Dataset,
     name: &str,

@@ -36,7 +36,7 @@ impl Cells {
         self.grid.iter().product()
     }
 
-    /// Mean of the valid depths of each cell; of all valid depths for a cell without one; `None` for a map without a valid pixel.
+    /// Mean of the valid depths of each cell. A cell without a valid depth gets the mean of all valid depths. `None` for a map without a valid pixel.
     ///
     /// # Shapes
     /// `mm`: all pixels, row by row, NaN for an invalid one. Returns the cells row by row.
@@ -61,7 +61,7 @@ impl Cells {
         (valid > 0).then(|| sums.iter().zip(&counts).map(mean).collect())
     }
 
-    /// Depths of all pixels from those of the cells: linear between the centres of cells, constant beyond the outer centres.
+    /// Depths of all pixels, interpolated linearly between the centres of cells. Depths are constant beyond the outer centres.
     ///
     /// # Shapes
     /// `depths`: the cells row by row. Returns the pixels row by row.
@@ -95,7 +95,7 @@ struct Place {
 impl Place {
     /// Place of `pixel` of `pixels` among `cells`.
     fn of(pixel: usize, pixels: usize, cells: usize) -> Place {
-        // Distances from the centre of the first cell, where a cell is twice `pixels` long.
+        // Distances from the centre of the first cell, in units in which a cell is twice `pixels` long.
         let cell = 2 * pixels;
         let distance = ((2 * pixel + 1) * cells).saturating_sub(pixels);
         let before = distance / cell;

@@ -18,7 +18,7 @@ use crate::predict::{Target, predict_target};
 use crate::rows::{DataPart, Divided};
 use crate::work::Work;
 
-/// State of the depth maps of `task`, whose cells a model by `fit` predicts for the test part of each division of `split`.
+/// State of the depth maps of `task`. Models fitted by `fit` predict the cells of the maps in the test part of each division of `split`.
 ///
 /// The constant is the mean map of the training part. Several divisions share no training part, so their constant is the mean of all maps.
 pub(super) fn state(

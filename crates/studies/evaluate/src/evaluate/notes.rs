@@ -13,7 +13,7 @@ use crate::rows::DataPart;
 use taceva_results::ModelProvenance;
 
 impl Target {
-    /// True if the model was fitted on the part.
+    /// True if the model was fitted on samples of the part.
     pub(super) fn is_seen(&self) -> bool {
         let divided = self.divided.as_ref();
         let is_fitted = divided.is_some_and(|divided| !divided.rows(DataPart::Train).is_empty());
@@ -34,7 +34,7 @@ impl Target {
         .collect()
     }
 
-    /// Note on frames of the test part that are byte-identical to a frame of the training part.
+    /// Note on frames of the test part that are byte-identical to a frame of the training or validation part; `None` without such frames.
     fn copies(&self, dataset: &Dataset) -> Option<Note> {
         let divided = self.divided.as_ref()?;
         if self.part != DataPart::Test {
@@ -51,7 +51,7 @@ impl Target {
     }
 }
 
-/// Note on a fit before rows were added. The parts then contain more rows than at the fit.
+/// Note on a fit before rows were added, if any. The parts then contain more rows than at the fit.
 fn fitted_before(dataset: &Dataset, fitted_on: &str) -> Option<Note> {
     let mut stages = dataset.header().stages();
     let (_, rows) = stages.find(|(digest, _)| digest.to_string() == fitted_on)?;

@@ -19,7 +19,7 @@ pub struct EvaluateRequest {
     pub metrics: Vec<String>,
     /// Part to score; `None` for the samples that the model has not seen.
     pub part: Option<DataPart>,
-    /// Facts of the sensor that complement the header of the dataset.
+    /// Facts of the sensor that complement the header of the dataset, if any.
     pub sensor: Option<SensorFile>,
     /// True if the caller states that samples are independent. For intervals, each sample then counts as one contact point.
     pub is_independent: bool,

@@ -143,7 +143,7 @@ pub fn score(
         samples::add_division(&mut samples, &target.rows, divided);
     }
     samples::add_predictions(&mut samples, &target.rows, predicted, &target.rows);
-    // The error of an angle with a period is not a difference of the table.
+    // For an angle with a period, the error is not the difference of the columns of the table.
     let channels = predicted.channels().iter();
     let channels = channels.filter(|channel| channel.period().is_none());
     notes.extend(channels.filter_map(|channel| {

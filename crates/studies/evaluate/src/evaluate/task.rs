@@ -229,7 +229,7 @@ impl<'a> Predicted<'a> {
     }
 }
 
-/// Remark on each class of a single cluster, which no model has learnt that predicts the cluster.
+/// Remark on each class that occurs in a single cluster. The model that predicts this cluster has not learnt the class.
 fn of_one_cluster(dataset: &Dataset, task: &Task, clusters: &[Option<String>]) -> Vec<String> {
     let mut found: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     let own = dataset.table().task(&task.name);

@@ -58,11 +58,11 @@ pub struct Recipe {
     pub(super) features: FeatureSpec,
     /// Feature settings that depend on the frames of the recording.
     pub(super) by_recording: FeaturesByRecording,
-    /// Settings other than those that depend on the frames.
+    /// Settings other than the feature settings that depend on the frames.
     pub(super) asked: ModelSettings,
-    /// Feature settings that the fit will choose.
+    /// Feature settings that the fit will choose; `None` if all are known.
     pub(super) open: Option<OpenFeatures>,
-    /// Finer features that some candidate models read, and the settings of these that depend on the frames.
+    /// Finer features that some candidate models read, if any, with their settings that depend on the frames.
     pub(super) closer: Option<(FeatureSpec, FeaturesByRecording)>,
 }
 
@@ -93,7 +93,7 @@ impl Recipe {
         known.extend(FeatureSpec::SETTINGS.iter().map(|setting| setting.key));
         request.settings.check_names(&known)?;
         let features = model.features().changed_by(&of_features)?;
-        // Principal components belong to one grid.
+        // Principal components are computed from a single grid.
         let is_whole = features.pca.is_none() && open.is_none();
         let closer = model.closer_features().filter(|_| is_whole);
         let closer = closer.map(|spec| {

@@ -62,7 +62,7 @@ impl Sequence {
         })
     }
 
-    /// Resemblance of samples to the samples `lag` positions later, and the number of pairs.
+    /// Resemblance of samples to the samples `lag` positions later, and the number of pairs; `None` if all ranks are equal.
     pub(super) fn resemblance(&self, ranks: &[Option<f64>], lag: usize) -> Option<(f64, usize)> {
         let pairs = self.pairs(lag);
         let both = pairs.filter_map(|[one, other]| Some([ranks[one]?, ranks[other]?]));

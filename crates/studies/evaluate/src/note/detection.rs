@@ -74,7 +74,7 @@ impl fmt::Display for Detection {
                 }
                 f.write_str("; noise_equivalent_force uses untouched frames only")?;
                 match reason {
-                    // Every reason states what is missing; more light presses need not be.
+                    // Every reason states what is missing, so no advice on light presses is added.
                     Some(_) => Ok(()),
                     None => f.write_str(
                         "; light presses (0.02 N to 0.2 N) at ten places or more would verify a limit",

@@ -14,10 +14,10 @@ const RATIOS: [f64; 2] = [1e-3, 1e3];
 const FACTOR: f64 = 1.5;
 
 impl Note {
-    /// Notes on channels whose predictions follow the truth at about a thousand times its size, or a thousandth.
+    /// Notes on channels whose predictions are about 1000 times the truth, or 1/1000 of the truth.
     ///
-    /// The whole interval of the slope decides, so that a model that predicts near zero has no note. A model that predicts near the mean of the
-    /// truth has none either, because its line passes far from zero.
+    /// Both ends of the interval of the slope must be near the ratio, so a model that predicts near zero gets no note. A model that predicts near the
+    /// mean of the truth gets no note either, because its line passes far from zero.
     pub(crate) fn likely_units(scores: &[Score]) -> Vec<Note> {
         let lines = scores.iter();
         let lines = lines.filter(|score| score.metric == LINE && score.of.is_empty());
@@ -44,7 +44,7 @@ fn likely_unit(line: &Score) -> Option<Note> {
     })
 }
 
-/// Range of the truth, which is full scale; NaN if all predictions lie on the line.
+/// Range of the truth, which is full scale; NaN if all predictions lie on the line. `None` without these numbers.
 fn range_of_truth(line: &Score) -> Option<f64> {
     let greatest = line.variant("greatest_deviation")?.value.number()?;
     Some(greatest / line.value.number()?)

@@ -42,7 +42,7 @@ pub struct Predicted {
     pub(super) distance: Option<Vec<f64>>,
     /// True for each prediction beyond the bounds of the model, by channel; `None` for a channel without bounds.
     pub(super) beyond: Vec<Option<Vec<bool>>>,
-    /// Names, clusters and probabilities of classes predicted by a model of a task.
+    /// Names, clusters and probabilities of classes, for a model of a task; `None` for other models.
     pub(super) task: Option<TaskCells>,
     /// Best constant predictions by channel, if the model states them.
     pub(super) constants: BTreeMap<String, f64>,

@@ -39,7 +39,7 @@ impl TaskCells {
         }))
     }
 
-    /// Cells of the rows of `self`, then those of `other`.
+    /// Cells of the rows of `self`, followed by the cells of the rows of `other`.
     pub(super) fn followed_by(mut self, other: TaskCells) -> TaskCells {
         self.clusters.extend(other.clusters);
         self.shares = self.shares.zip(other.shares).map(|(mut own, other)| {
@@ -65,7 +65,7 @@ impl TaskCells {
         }
     }
 
-    /// Columns of the labels: one of classes, or the seven of a pose.
+    /// Columns of the labels: one column for classes, or seven columns for a pose.
     pub(super) fn label_columns(&self) -> Vec<String> {
         let ends = POSE.iter().filter(|_| self.is_pose());
         let of_pose: Vec<String> = ends

@@ -1,4 +1,4 @@
-//! Compares the columns of a table of samples other than channels with those of the recording.
+//! Compares the columns other than channels in a table of samples with the same columns of the recording.
 
 use taceva_core::{Field, shown};
 use taceva_dataset::Dataset;
@@ -7,8 +7,8 @@ use taceva_results::Samples;
 use super::is_same;
 use crate::rows::BESIDE_CHANNELS;
 
-/// Description of the first difference between the columns other than channels and those of `rows` of `dataset`. A table may lack some of these
-/// columns.
+/// Description of the first difference between the columns other than channels of `samples` and of `rows` of `dataset`; `None` without a difference.
+/// A table may lack some of these columns.
 pub(super) fn other_columns(
     dataset: &Dataset,
     rows: &[usize],
@@ -20,7 +20,7 @@ pub(super) fn other_columns(
     fields.find_map(|field| {
         let name = field.name();
         let texts = dataset.table().as_text(name);
-        // The name of a joined recording is that of its folder, which may be another one here.
+        // A joined recording is named after its folder, which may have another name here.
         let own = |text: &str| match (is_joined && field == Field::Point, text.split_once('/')) {
             (true, Some((_, own))) => own.to_owned(),
             _ => text.to_owned(),

@@ -31,8 +31,8 @@ const OTHER_SUMS: &str = "the rows of this phase do not give the sums of the sta
 const MOST_READ: usize = 1 << 28;
 
 /// Scores `samples` by the plans of `states`, each on the rows of the phase that its provenance names. Omits metrics of a state without a
-/// phase, and metrics that read fields absent from the table. Also omits metrics of a state whose sums are not those of its phase, bit for
-/// bit; [`Recount::has_equal_sums`] is then false.
+/// phase, and metrics that read fields absent from the table. Also omits metrics of a state whose sums differ from the sums of its phase in
+/// any bit; [`Recount::has_equal_sums`] is then false.
 ///
 /// # Errors
 /// [`EvaluateError::State`] for a file that is not a state of its plan, for too many states, and for two states of one metric.
@@ -79,7 +79,7 @@ fn skip(metric: &Metric, reason: &str) -> Skip {
     }
 }
 
-/// Fault of a table with too many rows for this number of states. Each state reads the table.
+/// Message for a table with too many rows for this number of states, each of which reads the table; `None` otherwise.
 fn excess(samples: &Samples, states: usize) -> Option<String> {
     let rows = samples.rows();
     (rows.saturating_mul(states) > MOST_READ).then(|| {
@@ -107,7 +107,7 @@ fn uncovered(state: &ReadState, plan: &MetricPlan, samples: &Samples) -> Option<
     (!is_named).then_some(NO_PHASE)
 }
 
-/// The phase that the provenance of `state` names for every metric of `plan`.
+/// Phase that the provenance of `state` names for every metric of `plan`; `None` if it names several phases or none.
 fn phase_of<'a>(state: &'a ReadState, plan: &MetricPlan) -> Option<&'a str> {
     let phases = &state.file.provenance.phases;
     let mut of_metrics = plan.kept().iter().map(|own| phases.get(own.id));
@@ -129,7 +129,7 @@ fn is_mixed(plan: &MetricPlan) -> bool {
     kinds.any(|kind| Some(kind) != first)
 }
 
-/// Sums of the metrics of `plan` over the rows of the phase of `state`; `None` if they differ from those of `state`.
+/// Sums of the metrics of `plan` over the rows of the phase of `state`; `None` if they differ from the sums in `state`.
 fn sums(
     state: &ReadState,
     plan: &MetricPlan,

@@ -49,7 +49,7 @@ impl Period {
             false => self.number.to_degrees(),
         };
         let is_whole = (of_radians - of_radians.round()).abs() <= ROUNDED_DEG;
-        // 6.283 degrees is not a period that anyone means.
+        // A period of 6.283 degrees is not plausible.
         let is_of_radians = is_whole && of_radians <= 360.0 + ROUNDED_DEG;
         let degrees = match (unit, self.is_of_pi) {
             (Unit::Degree, is_of_pi)
@@ -60,7 +60,7 @@ impl Period {
                     of_radians.round()
                 ));
             }
-            // The channel refuses a period of a length or a force.
+            // The channel itself rejects a period for a length or a force.
             (_, true) | (Unit::Radian, false) => of_radians,
             (_, false) => self.number,
         };

@@ -28,7 +28,7 @@ pub fn recount_tables(
 ) -> Result<Recount, EvaluateError> {
     let ReadState { path, file, .. } = state;
     let metrics = file.plan.to_plan(path)?;
-    // The plan states metrics, units, periods and facts; cells that are not numbers were counted or refused before.
+    // The plan states metrics, units, periods and facts. Invalid cells were counted or rejected when the tables were first scored.
     let request = ScoreRequest {
         truth: truth.to_owned(),
         prediction: prediction.to_owned(),

@@ -24,7 +24,7 @@ pub struct ScoreRequest {
     pub key: Option<RowKey>,
     /// True if samples are independent. For intervals, each sample then counts as one contact point.
     pub is_independent: bool,
-    /// Path of a file of sensor facts: footprint, greatest depth, opacity.
+    /// Path of a file of sensor facts, if any: footprint, greatest depth, opacity.
     pub sensor: Option<PathBuf>,
     /// Names of metrics and of groups of metrics.
     pub metrics: Vec<String>,

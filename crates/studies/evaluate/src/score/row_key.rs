@@ -94,7 +94,7 @@ impl RowKeys {
         let mut pairs: Vec<KeyPair> = shared.map(KeyPair::shared).collect();
         if pairs.is_empty() {
             let first = |table: &CsvTable| names.clone().find(|name| table.has(name));
-            // An unnamed index counts the rows of its own file, so it identifies no row of the other.
+            // An unnamed index counts the rows of its own file, so it does not identify rows of the other file.
             let crossed = first(truth).zip(first(prediction));
             let crossed = crossed.filter(|(one, other)| !one.is_empty() && !other.is_empty());
             pairs.extend(crossed.map(|(truth, prediction)| KeyPair {
@@ -161,7 +161,7 @@ pub(super) fn is_whole(text: &str) -> bool {
     !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
 }
 
-/// Key among `known` that differs from `key` only in blanks or case.
+/// Key among `known` that differs from `key` only in blanks or case; `None` without such a key.
 pub(super) fn nearly<'a>(key: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let bare = |text: &str| -> String {
         let letters = text.chars().filter(|letter| !letter.is_whitespace());

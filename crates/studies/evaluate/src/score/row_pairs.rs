@@ -31,7 +31,7 @@ pub(super) struct PairedRows<'a> {
 }
 
 impl<'a> PairedRows<'a> {
-    /// Pairs the rows of the truth with those of the predictions by `pairing`. Selects the columns that `plan` reads.
+    /// Pairs the rows of truth and predictions by `pairing`. Selects the columns that `plan` reads.
     pub(super) fn new(
         [truth, prediction]: [&'a CsvTable; 2],
         pairing: &'a Pairing,

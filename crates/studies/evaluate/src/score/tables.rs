@@ -191,7 +191,7 @@ pub(super) fn channels(
     Channels::new(found).map_err(|error| wrong(prediction, error.to_string()))
 }
 
-/// Note on the `channels` that have unit 1 because no unit is stated.
+/// Note on the `channels` that have unit 1 because no unit is stated; `None` without such channels.
 pub(super) fn unit_of_one(request: &ScoreRequest, channels: &Channels) -> Option<Note> {
     let is_six = |name: &str| Channel::SIX.iter().any(|channel| channel.name() == name);
     let names = channels.iter().map(Channel::name);

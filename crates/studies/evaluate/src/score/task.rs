@@ -35,8 +35,7 @@ const CLUSTER: &str = "point_id";
 /// Request to score the tasks of two tables.
 #[derive(Clone, Debug)]
 pub struct TaskRequest {
-    /// The tables, the key that pairs their rows, the use of numbers that are not finite, and the number of threads. Channels and metrics are not
-    /// read.
+    /// Tables, key that pairs their rows, treatment of non-finite numbers, and number of threads. Channels and metrics are ignored.
     pub tables: ScoreRequest,
     /// Tasks to score, with distinct names.
     pub tasks: Vec<TaskSpec>,
@@ -53,11 +52,11 @@ struct TaskTables {
     truth: CsvTable,
     prediction: CsvTable,
     pairs: Vec<RowPair>,
-    /// True if rows with a number that is not finite are counted and left out, false if they are refused.
+    /// True if rows with a non-finite number are counted and left out, false if they are rejected.
     allow_invalid: bool,
 }
 
-/// Numbers of two paired rows.
+/// Row numbers of two paired rows.
 #[derive(Clone, Copy, Debug)]
 struct RowPair {
     truth: usize,
@@ -67,10 +66,10 @@ struct RowPair {
 /// States of the tasks of two tables, which can be written and merged, and whose [`report`](TaskStates::report) has the scores.
 ///
 /// The column of a task has its name. The truth holds classes by name or by position. The predictions hold classes too, or a score for each
-/// class in columns `NAME.p.CLASS`. A pose has seven columns `NAME.x`, `.y`, `.z` (mm, or the unit of the
-/// task in the predictions) and `.qx`, `.qy`, `.qz`, `.qw`, a place the first three.
+/// class in columns `NAME.p.CLASS`. A pose has seven columns: `NAME.x`, `.y`, `.z` (mm, or the unit of the
+/// task in the predictions) and `.qx`, `.qy`, `.qz`, `.qw`. A place has only the first three.
 ///
-/// For depth maps, the truth is a dataset with the task, and the predictions are an array with one map for each sample, in the same order.
+/// For depth maps, the truth is a dataset with the task. The predictions are an array with one map for each sample, in the same order.
 ///
 /// ```
 /// use taceva_evaluate::{ScoreRequest, Shard, TaskRequest, task_states};
@@ -92,7 +91,7 @@ struct RowPair {
 /// ```
 ///
 /// # Errors
-/// [`EvaluateError`] if a table cannot be read, rows do not pair, a column is missing, or a cell is no class, number or rotation.
+/// [`EvaluateError`] if a table cannot be read, rows do not pair, or a column is missing. Also for a cell that is not a class, number or rotation.
 pub fn task_states(request: &TaskRequest) -> Result<TaskStates, EvaluateError> {
     check_names(request)?;
     if let Some(task) = request.tasks.iter().find(|of| of.kind == TaskKind::Depth) {
@@ -193,7 +192,7 @@ struct Clusters<'a> {
 }
 
 impl<'a> Clusters<'a> {
-    /// Column `named`, or `point_id`, of the truth, or else of the predictions.
+    /// Clusters in the column `named`, by default `point_id`, of the truth, or of the predictions if the truth lacks this column.
     fn of(tables: &'a TaskTables, named: Option<&str>) -> Result<Clusters<'a>, EvaluateError> {
         let name = named.unwrap_or(CLUSTER);
         let is_truth = tables.truth.has(name) || !tables.prediction.has(name);

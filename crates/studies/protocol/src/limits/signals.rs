@@ -20,7 +20,7 @@ pub struct Signals {
     pub equality_is_frozen: bool,
     /// True if the host zeroes the force by a mean over 0.25 s. The transducer then sets its own zero only once per session.
     pub host_zero: bool,
-    /// Greatest change of a component of that zero during a press, in N, from the rig file; `None` for 5 times the least force that counts as contact.
+    /// Greatest change of a component of the host's zero during a press, in N. `None` for 5 times the least force that counts as contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub zero_step_max_n: Option<f64>,
 }

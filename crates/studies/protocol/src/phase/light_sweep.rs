@@ -1,4 +1,4 @@
-//! First held-out presses, repeated in every light scene. The held-out presses themselves are those in the light scene of calibration.
+//! First held-out presses, repeated in every light scene. In the light scene of calibration, they are equal to the held-out presses.
 
 use super::{PhaseInputs, spatial};
 use crate::press::Press;

@@ -204,7 +204,7 @@ impl Serialize for Plan {
         plan.serialize_field("cost", &self.cost)?;
         plan.serialize_field("skipped", &skipped)?;
         plan.serialize_field("frame", &self.frame)?;
-        // The recording depends on it, so a run with another frame size is another run.
+        // The recording depends on the frame size, so another size makes another plan.
         if let Some(kept) = &self.kept_frames {
             plan.serialize_field("kept_frames", kept)?;
         }

@@ -36,7 +36,7 @@ pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collecte
     for kind in std::mem::take(&mut collected.phases) {
         let metric = collected.metrics.iter().any(|metric| metric.phase == kind);
         let fit = collected.fits.iter().any(|fit: &Fit| fit.phase == kind);
-        // A task is no metric: the scene asks for its presses.
+        // A task is not a metric. The scene requests its presses.
         if metric || fit || kind.is_of_task() {
             collected.phases.push(kind);
         } else {
@@ -51,8 +51,8 @@ pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collecte
     collected
 }
 
-/// Reason why no model predicts the presses of the task `kind`; `None` if one does. Shapes need the model of the study, and changes of pose one of
-/// their own, which is fitted to them.
+/// Reason why no model predicts the presses of the task `kind`; `None` if a model predicts them. Shapes need the model of the study. Changes of pose
+/// need their own model, which is fitted to them.
 fn unpredicted(
     kind: PhaseKind,
     collected: &Collected,

@@ -61,7 +61,7 @@ pub(crate) struct StudyFacts<'a> {
     /// Size of stored frames; `None` stores full frames.
     pub(crate) kept_frames: Option<FrameSize>,
     pub(crate) footprint: Option<Footprint>,
-    /// Frame rate, in frames per second.
+    /// Frame rate, in frames per second; `None` if unknown.
     pub(crate) frame_rate: Option<f64>,
 }
 
@@ -275,7 +275,7 @@ impl<'a> Gather<'a> {
         }
     }
 
-    /// Number of folds that the scene asks for, at most `points`.
+    /// Number of folds in the scene; `None` without folds. Rejects more folds than `points`.
     fn folds(&self, points: u32) -> Result<Option<u32>, SceneError> {
         let model = self.study.model.as_ref();
         let Some(folds) = model.and_then(|model| model.folds.as_ref()) else {
@@ -331,7 +331,7 @@ pub(crate) fn lights(
         return Ok(known);
     };
     if known.is_empty() && rig.lighting.is_none() {
-        // The operator sets it, which needs a real rig.
+        // The operator sets the light, which needs a real rig.
         let is_real = |robot: &taceva_core::Descriptor| robot.source() == DriverSource::Real;
         return match rig.robot.as_ref().is_some_and(is_real) {
             true => Ok(written.value.clone()),

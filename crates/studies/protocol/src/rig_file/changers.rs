@@ -26,11 +26,11 @@ const GREATEST_CHANGE_S: f64 = 3_600.0;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigChangers {
-    /// Selector of the changer that mounts specimens on the robot.
+    /// Selector of the changer that mounts specimens on the robot, if any.
     pub specimen: Option<Setting<String>>,
-    /// Selector of the changer that places sensor units under the robot.
+    /// Selector of the changer that places sensor units under the robot, if any.
     pub unit: Option<Setting<String>>,
-    /// Selector of the lighting; it replaces the lighting of the scene.
+    /// Selector of the lighting, if any. It replaces the lighting of the scene.
     pub light: Option<Setting<String>>,
     /// Longest duration of a change of specimen or unit.
     pub patience: Duration,

@@ -105,7 +105,7 @@ impl RigFile {
             before,
             value_ms,
         };
-        // Of two lines after one driver, the later one is inserted first.
+        // If two lines follow one driver, the second line is inserted first.
         let (of_force, of_sensor) = (&force.driver, &sensor.driver);
         let mut written = vec![
             entry(
@@ -169,7 +169,7 @@ impl RigFile {
     }
 }
 
-/// Replaces a number, or inserts it in a line after the driver.
+/// Replaces a number, or inserts it in a line after the driver; `None` if the text has no such position.
 fn put(text: &mut String, entry: &Entry<'_>) -> Option<()> {
     let Entry {
         key,
@@ -188,7 +188,7 @@ fn put(text: &mut String, entry: &Entry<'_>) -> Option<()> {
     insert_after(text, driver.at()?, &format!("{key} = {value_ms:?}"))
 }
 
-/// Inserts `line` after the line that contains the byte offset `from`.
+/// Inserts `line` after the line that contains the byte offset `from`; `None` if the text has no such offset.
 pub(super) fn insert_after(text: &mut String, from: usize, line: &str) -> Option<()> {
     let end = text
         .get(from..)?

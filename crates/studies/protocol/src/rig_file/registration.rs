@@ -86,7 +86,7 @@ fn coordinates(point: &Point) -> [f64; 3] {
     [point.x.0, point.y.0, point.z.0]
 }
 
-/// Pose at `place` with rotation `turn`. Its angles are those nearest to `near`.
+/// Pose at `place` with the rotation `turn`, expressed by the angles nearest to `near`.
 fn pose([x, y, z]: [f64; 3], turn: &Matrix, near: &Rotation) -> Pose {
     let [x, y, z] = [x, y, z].map(Millimetre);
     Pose {

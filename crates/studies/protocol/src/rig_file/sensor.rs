@@ -16,15 +16,15 @@ pub struct RigSensor {
     pub driver: Setting<String>,
     /// Delay between a frame and its stamp, in ms; `None` uses the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
-    /// Standard uncertainty of `latency_ms`, in ms, measured by taps.
+    /// Standard uncertainty of `latency_ms`, in ms, measured by taps; `None` if unknown.
     pub latency_u_ms: Option<Setting<f64>>,
-    /// True if ambient light cannot reach the camera. A scene must not state the opposite.
+    /// True if ambient light cannot reach the camera; `None` if not stated. A scene must not state the opposite.
     pub opaque: Option<Setting<bool>>,
-    /// True if the gel has markers. A scene must not state the opposite.
+    /// True if the gel has markers; `None` if not stated. A scene must not state the opposite.
     pub markers: Option<Setting<bool>>,
-    /// Outline of the sensing surface, seen from above. A scene may state a smaller outline.
+    /// Outline of the sensing surface, seen from above; `None` if not stated. A scene may state a smaller outline.
     pub footprint: Option<Setting<FootprintSpec>>,
-    /// Calibration certificate.
+    /// Calibration certificate, if any.
     pub certificate: Option<Certificate>,
 }
 

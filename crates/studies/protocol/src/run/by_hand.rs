@@ -115,7 +115,7 @@ impl Run<'_> {
         let supervisor = &self.tip.supervisor;
         let answer = supervisor.during_question(|| operator.ask(question, self.tip.cancel));
         if answer == Answer::Done {
-            // The person may have moved the tip down by hand: it then rises before it goes on.
+            // The operator may have moved the tip down by hand. The tip is then raised first.
             self.tip.release()?;
             self.tip.find_pose()?;
             if !self.tip.is_about_high() {

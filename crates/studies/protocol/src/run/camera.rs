@@ -64,7 +64,7 @@ impl<'a> Camera<'a> {
                     }
                     return Ok((frame, stamp));
                 }
-                // A camera returns its newest frame. One from before the contact is neither lost nor damaged.
+                // A frame from before `from_s` is neither lost nor damaged, so it gives no event.
                 Ok(stamp) if stamp.valid_s < from_s => {}
                 Ok(_) => events(&Event::FrameRetried),
                 Err(error) if [ErrorKind::Timeout, ErrorKind::Protocol].contains(&error.kind()) => {

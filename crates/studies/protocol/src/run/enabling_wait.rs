@@ -54,7 +54,7 @@ impl Tip<'_> {
             (attendant.events)(&Event::Halted(trip));
         }
         let (cause, left) = self.leave(cause, &mut attendant);
-        // A tip that stands high and was never moved was not left in the gel.
+        // The tip is where it was before the run if nothing moved and the tip is above the gel.
         let is_untouched = left == Left::InPlace
             && !self.has_moved
             && self.find_pose().is_ok()
@@ -73,9 +73,9 @@ impl Tip<'_> {
     /// Raises the tip after a halt. Returns the cause that ends the run, and the place of the tip.
     fn leave(&mut self, cause: StopCause, attendant: &mut Attendant<'_>) -> (StopCause, Left) {
         if self.stands_clear {
-            // Hands may be at the tip: a robot that stands clear is not made ready to move.
+            // Hands may be at the tip, so a robot that stands clear is not released.
             let _ = self.robot.halt();
-            // A person at a question may have moved the tip down by hand.
+            // The operator may have moved the tip down by hand during a question.
             let left = match self.find_pose().is_ok() && self.is_about_high() {
                 true => Left::Clear,
                 false => Left::InPlace,

@@ -110,7 +110,7 @@ pub enum StopCause {
 }
 
 impl StopCause {
-    /// True if force, pose or frames did not arrive in time, a frame was outdated, or the zero of the force changed. The press can then be repeated.
+    /// True if force or pose was stale, no valid frame arrived, the camera was frozen, or the force zero changed. The press can then be repeated.
     pub fn is_silence(&self) -> bool {
         matches!(
             self,
@@ -121,7 +121,7 @@ impl StopCause {
         )
     }
 
-    /// True if force or pose arrived too late, as on a busy machine with emulated devices.
+    /// True if force, pose or guard was too late, as on a busy machine with emulated devices.
     pub(super) fn is_late(&self) -> bool {
         matches!(
             self,
@@ -135,7 +135,7 @@ impl StopCause {
         matches!(self, StopCause::Tripped(Trip::Released))
     }
 
-    /// Fault with which a device stopped itself. The operator must acknowledge it at the device before anything moves again.
+    /// Fault with which a device stopped itself, if any. The operator must acknowledge it at the device before anything moves again.
     pub fn fault(&self) -> Option<Fault> {
         match self {
             StopCause::Device(error) => error.fault(),

@@ -57,7 +57,7 @@ impl Run<'_> {
         let press = &planned.press;
         if self.mounted != Some(press.specimen) {
             match &mut self.specimens {
-                // A changer that moves has mounted before the press, while the robot was halted.
+                // A moving changer has already mounted the specimen, while the robot was halted.
                 Some(changer) if changer.patience().is_none() => {
                     changer.mount(press.specimen, DEADLINE)?;
                     (self.events)(&Event::Mounted(press.specimen));
@@ -70,7 +70,7 @@ impl Run<'_> {
             }
             self.mounted = Some(press.specimen);
         }
-        // Without pictures there may be no camera, whose lamps are its own.
+        // A press without frames may have no camera, and the camera may contain the lamps.
         if self.lit != press.light
             && (planned.frames || self.has_lamps())
             && let Some(light) = &press.light

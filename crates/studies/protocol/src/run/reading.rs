@@ -103,7 +103,7 @@ impl Tip<'_> {
             Observation::Force(..) | Observation::Numbered(..)
         );
         let seen = match (self.is_guarded && is_force, supervisor.tripped()) {
-            // The guard thread has passed on this reading already. A second time would count as a repeated signal.
+            // The guard thread has already passed on this reading. Passing it on again would count as a repeated signal.
             (true, Some(trip)) => Err(trip),
             (true, None) => Ok(()),
             (false, _) => supervisor.observe(observation, now_s),

@@ -40,7 +40,7 @@ impl Tip<'_> {
     pub(super) fn draw_back(&mut self, height_mm: f64) -> Step<()> {
         self.turn_back()?;
         let contact_mm = self.contact_mm.unwrap_or(height_mm);
-        // A waypoint may lie above the first contact: from there the tip draws back to the zero of depths.
+        // A waypoint may be above the first contact. The tip then draws back to the height of depth 0.
         let least_mm = match self.here().position.z.0 >= contact_mm {
             true => contact_mm,
             false => height_mm,
@@ -96,7 +96,7 @@ impl Tip<'_> {
         done
     }
 
-    /// True if two readings of the resting tip are healthy and differ, as with a live transducer.
+    /// True if two readings of the resting tip are healthy and show a live transducer.
     fn is_trustworthy(&mut self) -> bool {
         if self.release().is_err() || self.find_pose().is_err() {
             return false;

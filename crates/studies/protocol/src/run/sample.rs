@@ -15,7 +15,7 @@ pub(super) struct Spot {
     pub(super) number: u32,
     /// Height of depth 0, in mm.
     pub(super) zero_mm: f64,
-    /// Limit of the gel that stopped the tip before the waypoint.
+    /// Limit of the gel that stopped the tip before the waypoint; `None` if the tip reached the waypoint.
     pub(super) limited_by: Option<Limit>,
 }
 
@@ -33,9 +33,9 @@ impl Spot {
 /// Recorded samples of a press, and the zero of the press.
 #[derive(Debug, Default)]
 pub(super) struct Gathered {
-    /// Height relative to which the depths of the press are measured.
+    /// Height relative to which the depths of the press are measured; `None` before the first contact.
     pub(super) zero: Option<DepthZero>,
-    /// Last waypoint that was reached, with its shear force.
+    /// Last waypoint that was reached, with its shear force; `None` before the first waypoint.
     pub(super) sheared: Option<Sheared>,
     pub(super) samples: Vec<Sample>,
 }

@@ -41,7 +41,7 @@ pub(super) struct Run<'a> {
     pub(super) is_reach_unknown: bool,
     /// True if the gentle touch measured pushes along x and y with the axes of the rig file.
     pub(super) is_shear_known: bool,
-    /// Session before its start; `None` without a rig file, and from the first press on.
+    /// Session that has not started yet; `None` without a rig file, and after the start.
     pub(super) session: Option<SessionSpec<'a>>,
 }
 
@@ -147,7 +147,7 @@ impl<'a> Run<'a> {
         spec: &RunSpec<'_>,
         log: &mut dyn PressLog,
     ) -> Result<RunReport, RunError> {
-        // In the air, all cycles of a load are the same.
+        // A rehearsal visits the place of a load only once, because all cycles of a load have the same place.
         let is_made = |press: &PlannedPress| match (spec.mode, press.press.load()) {
             (Mode::Rehearse { .. }, Some(_)) => press.press.repeat == Some(0),
             _ => true,

@@ -24,7 +24,7 @@ impl Tip<'_> {
             MotionStage::Retreat { .. } if is_straight_up(here, goal) => LONGEST_MM,
             MotionStage::Search if is_straight_down(here, goal) => bearing.unfelt_mm(),
             MotionStage::Press { height_mm } => {
-                // The stiffness counts from the first contact: from a surface that was fitted too high the gel would seem too soft.
+                // The stiffness counts from the first contact. A surface that was fitted too high would make the gel seem too soft.
                 let z_mm = here.position.z.0;
                 let contact_mm = self.contact_mm.unwrap_or(height_mm);
                 let room_mm = bearing.room_mm(z_mm - contact_mm, &self.felt);

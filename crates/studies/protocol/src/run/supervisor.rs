@@ -71,13 +71,13 @@ pub struct Supervisor {
     stage: MotionStage,
     /// Reading of the transducer without load.
     zero: Wrench,
-    /// Start and end of the motion in progress.
+    /// Start and end of the motion in progress; `None` at rest.
     way: Option<[Pose; 2]>,
-    /// Fault that the robot reported to a guard thread.
+    /// Fault that the robot reported to a guard thread, if any.
     fault: Option<Fault>,
-    /// Last pose during a motion.
+    /// Last pose during a motion; `None` before this pose.
     seen: Option<Pose>,
-    /// Last force and its time in s, for the rate.
+    /// Last force and its time in s, for the rate; `None` before the first force.
     last: Option<(Wrench, f64)>,
     /// Time of the last force, in s; before the first, the start time of the stage.
     heard_s: f64,
@@ -85,7 +85,7 @@ pub struct Supervisor {
     tripped: Option<Trip>,
     enabling: Enabling,
     question: StandingQuestion,
-    /// Measured delays of readings, while they are measured.
+    /// Delays of readings; `None` unless they are being measured.
     lateness: Option<Lateness>,
 }
 
@@ -95,7 +95,7 @@ impl Supervisor {
         Supervisor {
             limits,
             halt,
-            // Before the first stage is set, the zero is unknown.
+            // Until the first stage is set, the zero is unknown, so any force is allowed.
             stage: MotionStage::Retreat {
                 force_n: f64::INFINITY,
             },
@@ -195,7 +195,7 @@ impl Supervisor {
         }
     }
 
-    /// True if two readings of a resting tip differ, as with a live transducer.
+    /// True if two readings of a resting tip show a live transducer: values differ, or for a transducer with coarse steps, numbers or times differ.
     pub(super) fn is_live(&self, one: &Look, other: &Look) -> bool {
         match (one.number, other.number) {
             (Some(one), Some(other)) if one == other => false,
@@ -353,7 +353,7 @@ impl Supervisor {
         })
     }
 
-    /// Checks a pose during a motion. An unchanged pose does not count as a motion.
+    /// Checks a pose during a motion; `None` for a valid pose. An unchanged pose does not count as a motion.
     fn under_way(&mut self, pose: &Pose, stamp: &Stamp, now_s: f64) -> Option<Trip> {
         let seen = *self.seen.get_or_insert(*pose);
         if distance(pose, &seen) > MOVED_MM.max(self.limits.signals.slack_mm()) {
@@ -367,7 +367,7 @@ impl Supervisor {
         })
     }
 
-    /// Checks that a pose is finite, fresh and not too deep.
+    /// Checks that a pose is finite, fresh and not too deep; `None` for a valid pose.
     fn place(&self, pose: &Pose, stamp: &Stamp, now_s: f64) -> Option<Trip> {
         if check_pose(pose).is_err() || !stamp.valid_s.is_finite() {
             return Some(Trip::NotFinite);

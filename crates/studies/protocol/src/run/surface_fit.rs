@@ -128,7 +128,7 @@ struct Weighed {
     surface: Surface,
     /// Least sum of squared residuals, in N².
     least: f64,
-    /// Greatest weight of the highest height, relative to the greatest of all.
+    /// Weight of the highest height, relative to the greatest weight of all heights.
     at_upper_end: f64,
 }
 

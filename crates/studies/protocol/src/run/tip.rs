@@ -51,21 +51,21 @@ pub(super) struct Tip<'a> {
     pub(super) at: Pose,
     /// Last target.
     pub(super) target: Pose,
-    /// Height of the first contact, while the tip may be in the gel.
+    /// Height of the first contact, in mm; `None` if the tip cannot be in the gel.
     pub(super) contact_mm: Option<f64>,
     /// Present stage.
     pub(super) stage: MotionStage,
     /// Last force.
     pub(super) felt: Felt,
-    /// Highest height at which the gel was felt, in mm.
+    /// Height of the highest known point of the gel, in mm; `None` before the first contact.
     pub(super) surface_mm: Option<f64>,
-    /// Readings of the search in progress, or of its repeated last steps.
+    /// Readings of the search in progress, or of its repeated last steps; `None` outside of a search.
     pub(super) readings: Option<Vec<DepthForce>>,
     /// True if the robot reported a fault. A person must then check the robot first.
     pub(super) robot_failed: bool,
     /// True while a retreat ignores cancellation.
     pub(super) ignores_cancel: bool,
-    /// Zero that the transducer set itself, which happens only once if the host zeroes the force; 0 for a transducer that sets none.
+    /// Zero that the transducer set itself; 0 if it sets none, `None` before. If the host zeroes the force, the transducer sets a zero only once.
     pub(super) box_zero: Option<Wrench>,
     /// True if the zero is valid for the present load of the robot.
     pub(super) is_zero_known: bool,
@@ -195,7 +195,7 @@ impl<'a> Tip<'a> {
                 ..Rotation::default()
             },
         };
-        // The tip is at this height or above it, so the way is in the air.
+        // The tip is at this height or above it, so the motion is in the air.
         self.watch_way()?;
         self.go(over, self.pace.travel)?;
         self.call_zero()?;
@@ -236,7 +236,7 @@ impl<'a> Tip<'a> {
             let (way_mm, stride_mm) = (distance(&here, &goal), self.stride_mm(&here, &goal));
             if way_mm <= stride_mm {
                 self.go(goal, self.pace.contact)?;
-                // A tip that lags after a long motion continues. In the last segment it may lag, as its label shows.
+                // After a long motion, a lagging tip moves on. In the last segment, a lag is accepted, because the label has the actual depth.
                 if way_mm <= segment_mm || distance(&self.here(), &goal) <= segment_mm {
                     return Ok(());
                 }
@@ -334,7 +334,7 @@ impl<'a> Tip<'a> {
         if !may_be_halted || error.fault().is_some() {
             return StopCause::Device(error);
         }
-        // A guard thread halted the robot, or saw first that a signal is missing.
+        // A guard thread has halted the robot, or has detected first that a signal is missing.
         match tripped {
             Some(trip) => StopCause::Tripped(trip),
             None if error.kind() == ErrorKind::Timeout => StopCause::Device(error),

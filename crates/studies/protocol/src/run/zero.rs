@@ -72,7 +72,7 @@ impl Tip<'_> {
         match zero.step(limit_n) {
             None => Ok(Some(zero)),
             Some(step) => {
-                // The next motion through the air is not watched for a collision by this zero.
+                // This zero must not detect collisions in the next motion through the air.
                 self.is_zero_known = false;
                 Err(StopCause::ZeroStep(Box::new(step)))
             }

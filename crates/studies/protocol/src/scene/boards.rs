@@ -15,7 +15,7 @@ const CATALOGUE: &str = "0.25 mm to 1.75 mm in steps of 0.05 mm, lines and dots"
 
 /// Error for gratings outside the catalogue.
 pub(crate) struct RefusedGratings {
-    /// Byte offset in the scene.
+    /// Byte offset in the scene, if known.
     pub(crate) at: Option<usize>,
     /// Problem.
     pub(crate) problem: SceneProblem,

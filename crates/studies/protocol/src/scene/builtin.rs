@@ -24,7 +24,7 @@ impl BuiltinScene {
         }
     }
 
-    /// Finds a scene by its name.
+    /// Finds a scene by its name; `None` for an unknown name.
     pub fn from_name(name: &str) -> Option<BuiltinScene> {
         BuiltinScene::ALL
             .into_iter()

@@ -29,17 +29,17 @@ pub struct LightingSpec {
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table with `driver` or `dataset`")]
 pub struct SensorSpec {
-    /// Selector of the driver.
+    /// Selector of the driver; `None` for a recording.
     pub driver: Option<Setting<String>>,
     /// Folder of a recording instead of a driver, relative to the scene.
     pub dataset: Option<Setting<String>>,
     /// Names of the units to measure; by default a single unit `1`.
     pub units: Option<Setting<Vec<String>>>,
-    /// True if ambient light cannot reach the camera.
+    /// True if ambient light cannot reach the camera; `None` if not stated.
     pub opaque: Option<Setting<bool>>,
-    /// True if the gel has markers.
+    /// True if the gel has markers; `None` if not stated.
     pub markers: Option<Setting<bool>>,
-    /// Outline of the sensing surface, seen from above.
+    /// Outline of the sensing surface, seen from above; `None` if not stated.
     pub footprint: Option<Setting<FootprintSpec>>,
 }
 
@@ -47,7 +47,7 @@ pub struct SensorSpec {
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table with `name` or `file`")]
 pub struct ModelSpec {
-    /// Name of an estimator, such as `ridge`, `pls` or `forest`.
+    /// Name of an estimator, such as `ridge`, `pls` or `forest`; `None` for a fitted model.
     pub name: Option<Setting<String>>,
     /// Path of a fitted model instead of a name, relative to the scene.
     pub file: Option<Setting<String>>,

@@ -58,14 +58,14 @@ impl<'de> Deserialize<'de> for MetricsSpec {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default, expecting = "a table of settings")]
 pub struct MetricSettings {
-    /// Cells along each side of a map.
+    /// Number of cells along each side of a map.
     pub bins: Option<Setting<u32>>,
     /// Least number of samples in a cell or bin.
     pub n_min: Option<Setting<u32>>,
-    /// Least force of a press for the press to count in the sensitivity, in N.
+    /// Least force of a press that counts in the sensitivity, in N.
     #[serde(rename = "gate_N")]
     pub gate_n: Option<Setting<f64>>,
-    /// Width of the moving average of a curve, in bins; odd.
+    /// Width of the moving average of a curve, in bins, an odd number.
     pub smoothing: Option<Setting<u32>>,
     /// Greatest error of a recognised spacing, in mm.
     pub tolerance_mm: Option<Setting<f64>>,

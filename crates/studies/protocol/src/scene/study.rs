@@ -20,11 +20,11 @@ pub struct Study {
     pub name: String,
     /// The sensor.
     pub sensor: SensorSpec,
-    /// Robot that moves the indenter.
+    /// Robot that moves the indenter, if any.
     pub robot: Option<DeviceSpec>,
-    /// The force transducer.
+    /// Force transducer, if any.
     pub force: Option<DeviceSpec>,
-    /// The light around the sensor.
+    /// Light around the sensor; `None` if the scene states no light.
     pub lighting: Option<LightingSpec>,
     /// Limits of the study. The defaults are the limits of the scene.
     pub limits: LimitSpec,

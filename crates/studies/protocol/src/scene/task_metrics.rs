@@ -37,7 +37,7 @@ const PHASES: [(PhaseKind, &[&str]); 3] = [
     (PhaseKind::Pose, &OF_POSE),
 ];
 
-/// Phase whose presses `metric` scores; `None` for a metric that is no score of a task.
+/// Phase whose presses `metric` scores; `None` for a metric that is not a score of a task.
 pub(crate) fn phase_of_task(metric: &str) -> Option<PhaseKind> {
     let mut phases = PHASES.into_iter();
     let of = phases.find(|(_, metrics)| metrics.contains(&metric));
@@ -50,7 +50,7 @@ pub(super) fn task_metrics() -> impl Iterator<Item = &'static str> {
     phases.flat_map(|(_, metrics)| metrics.iter().copied())
 }
 
-/// Line that requests presses of `phase`, if `protocol` has none; `None` if it has some, and for other phases.
+/// Line that requests presses of `phase`. `None` if `protocol` already has such presses, and for phases other than tasks.
 pub(super) fn missing_line(phase: PhaseKind, protocol: &Protocol) -> Option<&'static str> {
     let (count, line) = match phase {
         PhaseKind::Slip => (&protocol.slip.strokes, "slip = { strokes = 40 }"),

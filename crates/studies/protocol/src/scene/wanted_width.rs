@@ -14,7 +14,7 @@ pub struct WantedWidth {
 }
 
 impl WantedWidth {
-    /// Metrics whose width follows from errors by contact point: means of errors, and roots of these.
+    /// Metrics whose width follows from errors by contact point: means of errors, and roots of means.
     pub const METRICS: [&'static str; 2] = ["mae", "rmse"];
 
     /// Parses `mae.Fz` and `10 %`; `None` without a dot, or if the width is not a percentage from above 0 to 1000.

@@ -38,7 +38,7 @@ impl WearLoad {
         }
     }
 
-    /// Load with this name.
+    /// Load with this name; `None` for an unknown name.
     pub fn from_name(name: &str) -> Option<WearLoad> {
         WearLoad::ALL.into_iter().find(|load| load.name() == name)
     }

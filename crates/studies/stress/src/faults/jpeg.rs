@@ -127,7 +127,7 @@ fn apply(canvas: &mut Canvas, drawn: &Realisation) {
     }
 }
 
-/// Sum of `numbers` by the weights at `at`; a single number stays as it is.
+/// Sum of `numbers` with the weights in row `at`; a single number is unchanged.
 fn mixed(weights: &[[f32; 3]; 3], numbers: &[f32], at: usize) -> f32 {
     match numbers {
         [only] => *only,
@@ -140,7 +140,7 @@ fn product(numbers: &[f32], weights: &[f32]) -> f32 {
     products.map(|(number, weight)| number * weight).sum()
 }
 
-/// Steps of the coefficients at a quality of 100 less `lost`, as the encoder of the Independent JPEG Group scales them.
+/// Steps of the coefficients at the quality 100 − `lost`, scaled as by the encoder of the Independent JPEG Group.
 fn steps(table: &Block, lost: f32) -> Block {
     let quality = (100.0 - lost).max(1.0);
     let percent = match quality < 50.0 {
@@ -171,7 +171,7 @@ impl Plane {
         }
     }
 
-    /// Rounds the coefficients of each block to `steps`. Blocks at the edge continue its last pixel.
+    /// Rounds the coefficients of each block to `steps`. A block beyond the edge of the plane repeats the pixels at the edge.
     fn compress(&mut self, steps: &Block) {
         let [forward, inverse] = &*WEIGHTS;
         for top in (0..self.height).step_by(SIDE) {

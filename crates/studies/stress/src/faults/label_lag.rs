@@ -33,7 +33,7 @@ fn change(labels: &Labels<'_>, milliseconds: f64) -> Column {
         .collect()
 }
 
-/// Label `seconds` after the time of a row, linear between rows. The last label of a contact stays.
+/// Label `seconds` after the time of a row, linear between rows; `None` without a label. After the last row of a contact, its label is used.
 fn after(
     labels: &Labels<'_>,
     followers: &[Option<usize>],

@@ -55,7 +55,7 @@ impl Level {
     }
 
     /// Takes the brightness of the next picture. If the mean of the newest pictures is beyond the limit, returns the median change of the pictures
-    /// beyond it.
+    /// beyond the limit; `None` otherwise.
     pub(super) fn push(&mut self, brightness: f64) -> Option<f64> {
         if self.newest.len() == WINDOW {
             self.newest.pop_front();

@@ -21,13 +21,13 @@ struct Rule {
     rank: usize,
 }
 
-/// Most of the newest pictures are beyond the limit.
+/// Rule: most of the newest pictures are beyond the limit.
 const MOST: Rule = Rule {
     beyond: 19,
     reach: 19,
     rank: 20,
 };
-/// Some of the newest pictures are far beyond all that set the limit.
+/// Rule: a few of the newest pictures are far beyond every picture that set the limit.
 const SOME: Rule = Rule {
     beyond: 3,
     reach: 1,
@@ -43,7 +43,7 @@ pub(super) struct Limited {
     /// Number of pictures that set the limit, at least [`WINDOW`].
     wanted: usize,
     learnt: Vec<f64>,
-    /// Limit, set by the last of the `wanted` pictures.
+    /// Limit, set by the last of the `wanted` pictures; `None` before.
     limit: Option<Limit>,
     newest: VecDeque<f64>,
 }
@@ -60,7 +60,7 @@ impl Limited {
         Limited::new(MOST, least)
     }
 
-    /// A limit that only strange pictures exceed, three of the newest after a change.
+    /// A limit that at least three of the newest pictures exceed after a change.
     pub(super) fn by_some(least: f64) -> Limited {
         Limited::new(SOME, least)
     }
@@ -91,7 +91,7 @@ impl Limited {
         self.limit.map(|of| of.limit - of.median)
     }
 
-    /// Takes the number of the next picture. Returns the usual excess of the pictures beyond the limit, if enough of the newest pictures are.
+    /// Takes the number of the next picture. Returns the median excess of the newest pictures beyond the limit; `None` if these are too few.
     pub(super) fn push(&mut self, number: f64) -> Option<f64> {
         let Some(Limit { median, limit }) = self.limit else {
             self.learnt.push(number);
@@ -115,7 +115,7 @@ impl Limited {
         sorted.sort_unstable_by(f64::total_cmp);
         let count = sorted.len();
         let median = sorted[count / 2];
-        // The number that enough pictures of a run exceed or reach.
+        // Excess that `reach` pictures of the run exceed or reach.
         let runs = self.learnt.windows(WINDOW).map(|run| {
             let mut run = run.to_vec();
             run.sort_unstable_by(f64::total_cmp);
@@ -125,7 +125,7 @@ impl Limited {
         let excess = self.least.max(RUNS * farthest);
         Limit {
             median,
-            // The same share of the pictures is beyond it, however many there are.
+            // The share of untouched pictures beyond the limit does not depend on the number of pictures.
             limit: sorted[count - (self.rule.rank * count / LEARNT).max(1)].max(median + excess),
         }
     }
@@ -133,7 +133,7 @@ impl Limited {
 
 /// Expected number of false alarms of one measured value in `pictures` untouched pictures that are exchangeable with those that set the limit.
 ///
-/// The share q of pictures beyond the k-th greatest of n numbers has the distribution Beta(k, n + 1 − k), whatever the distribution of the numbers.
+/// The share q of pictures beyond the k-th greatest of n numbers follows Beta(k, n + 1 − k), whatever the distribution of the numbers.
 /// The number of pictures of a window beyond the limit is therefore beta-binomial. The sum over all windows is an upper bound, because windows
 /// overlap.
 pub(super) fn false_alarms(pictures: u64) -> f64 {

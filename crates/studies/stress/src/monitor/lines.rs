@@ -2,8 +2,8 @@
 
 use taceva_core::Frame;
 
-/// Mean absolute change of the line that changes most from `before` to `frame`, less that of all lines, a share of full scale. A change that lasts
-/// appears once only.
+/// Mean absolute change of the line that changes most from `before` to `frame`, minus the mean over all lines, as a share of full scale. A lasting
+/// change appears only once.
 pub(super) fn line_change(before: &Frame, frame: &Frame) -> f64 {
     let info = frame.info();
     let length = info.width as usize * info.format.samples();

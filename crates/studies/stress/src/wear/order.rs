@@ -41,7 +41,7 @@ pub(crate) struct Placed {
     /// Position among the recordings.
     pub(crate) at: usize,
     pub(crate) presses: Option<u32>,
-    /// First day of the recording.
+    /// First day of the recording; `None` if unknown.
     pub(crate) day: Option<Date>,
     /// Presses on the gel, or days from its first recording.
     pub(crate) place: f64,

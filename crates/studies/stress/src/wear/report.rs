@@ -63,7 +63,7 @@ pub struct RecordingWear {
     pub left_out: usize,
     /// Untouched picture: `reference`, `least load`, or `none`.
     pub untouched: &'static str,
-    /// Change of the untouched picture from the untouched picture of the first recording, divided by the mean change by contact in the first.
+    /// Change of the untouched picture since the first recording, divided by the mean change by contact in the first recording; `None` if unknown.
     pub stimulus: Option<f64>,
     /// Mean absolute errors.
     pub mae: ByChannel<Estimate>,
@@ -76,17 +76,17 @@ pub struct RecordingWear {
 /// Difference of the error of a recording from the error of the first recording.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct WearDifference {
-    /// The difference, in the unit of the channel.
+    /// The difference, in the unit of the channel; `None` if it is absent.
     pub value: Option<f64>,
-    /// Both ends of its interval.
+    /// Both ends of its interval; `None` without an interval.
     pub interval: Option<[f64; 2]>,
-    /// Confidence of the interval, more than 0.95 among several differences.
+    /// Confidence of the interval, more than 0.95 among several differences; `None` without an interval.
     pub confidence: Option<f64>,
-    /// p value, adjusted for all differences of the gel.
+    /// p value, adjusted for all differences of the gel; `None` without a test.
     pub p: Option<f64>,
     /// True if a difference is shown.
     pub is_shown: bool,
-    /// Reason for an absent difference.
+    /// Reason for an absent difference; `None` if the difference is known.
     pub reason: Option<String>,
 }
 
@@ -97,7 +97,7 @@ pub struct ChannelWear {
     pub slope: Estimate,
     /// Place at which the limit of the channel is met; `None` without a limit.
     pub limit: Option<LimitMet>,
-    /// Folder of the first recording whose error is shown to differ from the error of the first recording.
+    /// Folder of the first recording whose error is shown to differ from the error of the first recording; `None` without such a recording.
     pub first_different: Option<String>,
 }
 
@@ -106,10 +106,10 @@ pub struct ChannelWear {
 pub struct LimitMet {
     /// The limit, in the unit of the channel.
     pub limit: f64,
-    /// Presses on the gel, or days from its first recording, at which the trend meets the limit; 0 for a place below 0.
+    /// Presses on the gel, or days from its first recording, at which the trend meets the limit; 0 for a place below 0, `None` if unknown.
     pub at: Option<f64>,
-    /// One-sided 95 % bound: the error of a recording before this place is below the limit.
+    /// One-sided 95 % bound: the error of a recording before this place is below the limit. `None` without a bound.
     pub not_before: Option<f64>,
-    /// Reason for an absent place.
+    /// Reason for an absent place; `None` if the place is known.
     pub reason: Option<Undefined>,
 }

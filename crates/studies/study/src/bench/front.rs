@@ -8,7 +8,7 @@ use taceva_metrics::ClusterSums;
 use super::models::ModelTrial;
 use super::paired_errors::difference;
 
-/// A model of a race, and the sums of its absolute errors by contact point, one entry for each channel.
+/// A model of a race, and the sums of its absolute errors by contact point for each channel; `None` for a channel without contact points.
 pub(super) type Raced = (ModelTrial, Vec<Option<ClusterSums>>);
 
 /// Records in each error the models that beat the model with this error; records none if the system does not report processor time.

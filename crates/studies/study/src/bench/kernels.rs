@@ -69,7 +69,7 @@ pub struct Floor {
     pub name: &'static str,
     /// Nanoseconds for each pair of values, wall time.
     pub ns_per_pair: Spread,
-    /// Nanoseconds for each pair of values, processor time of the thread.
+    /// Nanoseconds for each pair of values, processor time of the thread; `None` if the system does not report it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thread_ns_per_pair: Option<Spread>,
     /// Best throughput, in GB/s.
@@ -88,7 +88,7 @@ pub struct KernelRow {
     pub scores: &'static str,
     /// Nanoseconds for each pair of values, wall time.
     pub ns_per_pair: Spread,
-    /// Nanoseconds for each pair of values, processor time of the thread.
+    /// Nanoseconds for each pair of values, processor time of the thread; `None` if the system does not report it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thread_ns_per_pair: Option<Spread>,
     /// Best time relative to the best time of the floor.
@@ -310,7 +310,7 @@ fn survives_shuffling(candidate: Candidate, seed: u64) -> bool {
     })
 }
 
-/// Instruction set that a kernel was compiled for.
+/// Instruction set that a kernel was compiled for, if any.
 fn isa(kernel: Kernel) -> Option<String> {
     match kernel {
         Kernel::Exact(isa) => Some(isa.name().to_owned()),

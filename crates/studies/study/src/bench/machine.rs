@@ -31,7 +31,7 @@ impl Machine {
     }
 }
 
-/// Name of the processor as Linux reports it.
+/// Name of the processor as Linux reports it; `None` if unknown.
 fn cpu_name() -> Option<String> {
     let text = std::fs::read_to_string("/proc/cpuinfo").ok()?;
     let line = text.lines().find(|line| line.starts_with("model name"))?;

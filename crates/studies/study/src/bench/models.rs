@@ -41,7 +41,7 @@ pub struct ModelTrial {
     pub latency_s: f64,
     /// Error of each channel on the test part; empty if the model could not be fitted.
     pub errors: Vec<TrialError>,
-    /// Reason why the model could not be fitted or scored.
+    /// Reason why the model could not be fitted or scored; `None` if it was scored.
     pub failed: Option<String>,
 }
 
@@ -214,7 +214,7 @@ fn measure(
     Ok(sums.collect())
 }
 
-/// Calls `run`, and returns its result and its processor time in s.
+/// Calls `run`, and returns its result and its processor time in s; `None` if the system does not report processor time.
 pub(super) fn cpu_s<T>(run: impl FnOnce() -> T) -> (T, Option<f64>) {
     let start = process_time();
     let outcome = run();

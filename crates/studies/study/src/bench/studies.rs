@@ -48,7 +48,7 @@ pub struct StudyTrial {
     pub variant: StudyVariant,
     /// Processor time of this process for the presses of one repetition, in s. `None` if the system does not report processor time.
     pub press_cpu_s: Option<f64>,
-    /// Processor time of this process for fits, predictions and scores, in s.
+    /// Processor time of this process for fits, predictions and scores, in s; `None` if the system does not report it.
     pub assess_cpu_s: Option<f64>,
     /// Number of clusters of contact points behind the intervals, at most 64; `None` without intervals.
     pub clusters: Option<usize>,
@@ -58,7 +58,7 @@ pub struct StudyTrial {
     pub mean_width: Option<f64>,
     /// True if no other row has both less processor time and a lower mean width. False without time or width.
     pub pareto: bool,
-    /// Reason why the model could not be fitted or scored.
+    /// Reason why the model could not be fitted or scored; `None` if it was scored.
     pub failed: Option<String>,
 }
 
@@ -73,7 +73,7 @@ pub struct StudyChannel {
     pub mae: f64,
     /// 95 % interval by contact point; `None` with too few points.
     pub ci95: Option<[f64; 2]>,
-    /// Logarithmic width of the interval: ln(upper end / lower end).
+    /// Logarithmic width of the interval: ln(upper end / lower end). `None` without an interval, or if it reaches 0.
     pub width: Option<f64>,
     /// Number of samples.
     pub n: u64,
@@ -90,12 +90,12 @@ impl StudyBench {
 }
 
 impl StudyTrial {
-    /// Processor time of the whole study, in s.
+    /// Processor time of the whole study, in s; `None` if the system does not report it.
     pub fn cpu_s(&self) -> Option<f64> {
         Some(self.press_cpu_s? + self.assess_cpu_s?)
     }
 
-    /// Error of the channel or plane `channel`.
+    /// Error of the channel or plane `channel`; `None` if it is not scored.
     pub fn error(&self, channel: &str) -> Option<&StudyChannel> {
         self.errors.iter().find(|error| error.channel == channel)
     }
@@ -109,7 +109,7 @@ impl StudyTrial {
     }
 }
 
-/// Runs the study of each of `entries` with each of its seeds in the folder of a run at `folder`, which each replaces, and without a cache.
+/// Runs the study of each of `entries` with each of its seeds, without a cache. Each run replaces the run in the folder at `folder`.
 ///
 /// A model that cannot be fitted becomes a row with the reason.
 ///
@@ -163,7 +163,7 @@ pub fn studies(
     })
 }
 
-/// Progress without the stages of a study, whose steps would replace those of the benchmark.
+/// Progress without the stages of a study, whose steps would replace the steps of the benchmark.
 struct WholeStudies<'a>(&'a dyn Progress);
 
 impl Progress for WholeStudies<'_> {
@@ -241,7 +241,7 @@ fn mean(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
     Some(values.iter().sum::<f64>() / values.len() as f64)
 }
 
-/// Coverage of the intervals of `channel` in all repetitions.
+/// Coverage of the intervals of `channel` in all repetitions; `None` if it is unknown.
 fn coverage(repetitions: &[Repetition], channel: &str) -> Option<StudyCoverage> {
     let errors = repetitions.iter().flat_map(|one| &one.errors);
     let errors = errors.filter(|error| error.channel == channel);
@@ -267,7 +267,7 @@ fn errors_of(report: &EvaluationReport) -> Vec<StudyChannel> {
     STUDY_CHANNELS.into_iter().filter_map(error).collect()
 }
 
-/// Greatest number of clusters behind an interval of `report`.
+/// Greatest number of clusters behind an interval of `report`; `None` without intervals.
 fn clusters(report: &EvaluationReport) -> Option<usize> {
     let clusters = |channel: &str| {
         let score = report.score(METRIC, channel)?;

@@ -22,7 +22,7 @@ const USUAL: &str = "MagicTac";
 pub struct StudyGrid {
     /// Name of the study in the scene. `None` takes MagicTac, or the first study of a scene without it.
     pub study: Option<String>,
-    /// Seed of all random draws instead of the scene's.
+    /// Seed of all random draws; `None` keeps the seed of the scene.
     pub seed: Option<u64>,
     /// Number of repetitions of each study, with consecutive seeds.
     pub seeds: NonZeroU32,
@@ -58,13 +58,13 @@ impl StudyGrid {
     /// Plans the scene in `text` with each combination and seed, models within folds within points.
     ///
     /// # Errors
-    /// [`StudyError`] for an invalid scene or combination, an unknown study or model, and for a scene that does not press on the simulated bench.
+    /// [`StudyError`] for an invalid scene or combination, or an unknown study or model. Also for a scene that does not press on the simulated bench.
     pub fn entries(
         &self,
         text: &SceneText,
         setup: RunSetup<'_>,
     ) -> Result<Vec<StudyEntry>, StudyError> {
-        // Faults of the scene itself are reported with its own lines.
+        // Errors of the scene itself are reported with its own lines.
         let whole = planned(text.clone(), setup, self.seed)?;
         let drivers = setup.workshop.drivers;
         whole.check_simulated(drivers).map_err(|error| {
@@ -193,7 +193,7 @@ fn subtable<'a>(table: &'a mut Table, key: &str) -> Option<&'a mut Table> {
     table.entry(key).or_insert_with(empty).as_table_mut()
 }
 
-/// `error` without its line, because the text is not that of the user.
+/// `error` without its line, because the user did not write this text.
 fn unplaced(error: StudyError) -> StudyError {
     match error {
         StudyError::Acquire(AcquireError::Scene(mut scene)) => {

@@ -19,7 +19,7 @@ use crate::models::{fit_request, folds, model_file};
 
 /// Fitted or opened models of a study.
 pub(super) struct Learnt {
-    /// The model, or those of all folds; never empty. The first predicts the rows of no fold.
+    /// The only model, or one model for each fold; never empty. The first also predicts the rows that are in no fold.
     models: Vec<Learned>,
     /// Folds of the contact points, if the scene asks for them.
     folds: Option<Folded>,
@@ -77,7 +77,7 @@ impl Learnt {
         if let Some(seed) = seed {
             request = request.with_seed(seed)?;
         }
-        // Only the trainings of one seed keep checkpoints; the cache holds the finished ones of other seeds.
+        // Only trainings with the first seed have checkpoints; finished trainings with other seeds are in the cache.
         let has_checkpoints = seed == scene.seeds.first().copied();
         let fitting = Fitting {
             dataset,
@@ -103,12 +103,12 @@ impl Learnt {
             .map(Some)
     }
 
-    /// The model that predicts the rows of no fold.
+    /// The only model, or the model that also predicts the rows that are in no fold.
     pub(super) fn model(&self) -> &Model {
         &self.models[0].model
     }
 
-    /// Division of the calibration rows: that of the fit, or of all folds together.
+    /// Division of the calibration rows by the fit, or by all folds together; `None` for a model that was fitted on another recording.
     pub(super) fn division(&self) -> Option<&Divided> {
         match &self.folds {
             Some(folds) => Some(&folds.whole),

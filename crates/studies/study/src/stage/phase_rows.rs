@@ -81,7 +81,7 @@ impl<'a> PhaseRows<'a> {
         planned.filter_map(|metric| Some((metric, catalogue::find(&metric.id)?)))
     }
 
-    /// True if contact shapes are planned, whose maps are those of predicted places and depths.
+    /// True if contact shapes are planned. Their depth maps follow from the predicted places and depths.
     fn has_shapes(&self) -> bool {
         self.plan.phases.contains(&PhaseKind::Shape)
     }

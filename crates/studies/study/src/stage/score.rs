@@ -24,9 +24,9 @@ pub(super) struct Scores<'a> {
     pub(super) study: &'a PlannedStudy,
     pub(super) dataset: &'a Dataset,
     pub(super) phase_rows: &'a PhaseRows<'a>,
-    /// Predictions, and the dataset row of each prediction, ascending.
+    /// Predictions, and the dataset row of each prediction, ascending; `None` if no metric reads predictions.
     pub(super) predicted: Option<&'a (Predicted, Vec<usize>)>,
-    /// Predicted spacings of presses on gratings.
+    /// Predicted spacings of presses on gratings; `None` if no metric reads them.
     pub(super) predicted_spacings: Option<&'a PredictedSpacings>,
     pub(super) jobs: NonZeroUsize,
 }
@@ -178,8 +178,8 @@ impl Scores<'_> {
         })
     }
 
-    /// Group of rows that determines the skill of the model: the unseen presses of the calibration. Without unseen presses, the phase with the most
-    /// predictions.
+    /// Group of rows that determines the skill of the model; `None` without predictions. These are the unseen presses of the calibration, or without
+    /// these the phase with the most predictions.
     fn skill_group(&self) -> Option<ScoreGroup> {
         let (_, predicted) = self.predicted?;
         let count = |phase: PhaseKind| {

@@ -1,4 +1,4 @@
-//! Scores of contact shapes on the presses of the ball: the depth map of the predicted place and depth beside the true one.
+//! Scores of contact shapes on the presses of the ball: the depth map of the predicted place and depth, compared with the true depth map.
 
 use taceva_acquire::{PlannedScene, PlannedStudy};
 use taceva_dataset::Dataset;

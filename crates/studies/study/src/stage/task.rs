@@ -25,7 +25,7 @@ impl TaskOutcome {
                 let task = task.map_err(|error| EvaluateError::Request(error.to_string()))?;
                 Ok(TaskOutcome::Scored(StudyTask::new(task)))
             }
-            // The recording is complete: samples that no model can be fitted to cost no other score.
+            // The recording is complete. A task without a possible fit must not cost the other scores.
             Err(error @ (EvaluateError::Request(_) | EvaluateError::Model(_)))
                 if error.kind() != ErrorKind::Interrupted =>
             {

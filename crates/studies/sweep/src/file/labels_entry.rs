@@ -38,7 +38,7 @@ pub struct LabelsEntry {
     pub tasks: Vec<String>,
     /// Column with the clusters; `None` for `point_id`.
     pub cluster: Option<String>,
-    /// True if rows with a number that is not finite are counted and left out, false if they are refused.
+    /// True if rows with a non-finite number are counted and left out, false if they are rejected.
     pub allow_invalid: bool,
     /// Thresholds by the name of the task, as decimals.
     pub thresholds: BTreeMap<String, String>,
@@ -93,7 +93,7 @@ impl LabelsEntry {
         Ok(Some(entry))
     }
 
-    /// Every part in words: different entries have different words.
+    /// All parts as text. Different entries have different texts.
     pub(crate) fn words(&self) -> Vec<String> {
         let tasks = self.tasks.iter().map(|task| format!("task {task}"));
         let cluster = self.cluster.iter();
@@ -113,7 +113,7 @@ impl LabelsEntry {
     /// Parsed tasks.
     ///
     /// # Errors
-    /// [`EvaluateError::Request`] for a text that is no task.
+    /// [`EvaluateError::Request`] for a text that is not a task.
     pub(crate) fn specs(&self) -> Result<Vec<TaskSpec>, EvaluateError> {
         let specs = self.tasks.iter().map(|task| task.parse::<TaskSpec>());
         specs
@@ -124,7 +124,7 @@ impl LabelsEntry {
     /// Rules by the name of the task.
     ///
     /// # Errors
-    /// [`EvaluateError::Request`] for a threshold that is no finite number, or a debounce that is no number of frames.
+    /// [`EvaluateError::Request`] for a threshold that is not a finite number, or a debounce that is not a number of frames.
     pub(crate) fn rules(&self) -> Result<BTreeMap<String, TaskRule>, EvaluateError> {
         let mut rules: BTreeMap<String, TaskRule> = BTreeMap::new();
         let wrong = |key: &str, text: &str, expected: &str| {

@@ -27,7 +27,7 @@ pub struct TablesEntry {
     pub units: Vec<(String, Unit)>,
     /// True if non-finite cells are counted and skipped, false if they are rejected.
     pub allow_invalid: bool,
-    /// Tasks to score instead of channels.
+    /// Tasks to score instead of channels; `None` for channels.
     pub labels: Option<LabelsEntry>,
 }
 

@@ -53,7 +53,7 @@ pub(super) fn size(file: &SweepFile, recordings: usize) -> Result<(), SweepError
     Ok(())
 }
 
-/// Rejects an unknown metric, and metrics of channels beside tasks or the reverse.
+/// Rejects an unknown metric, a metric of channels in a sweep over tasks, and a metric of tasks in a sweep over channels.
 pub(super) fn metrics(file: &SweepFile) -> Result<(), SweepError> {
     let is_of_tasks = |name: &&String| TaskScore::METRICS.contains(&name.as_str());
     if file.labels.is_empty() {

@@ -1,4 +1,4 @@
-//! Shards of two tables with tasks: each scores the rows of some clusters.
+//! Shards of two tables with tasks. Each shard scores the rows of some clusters.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
@@ -26,7 +26,7 @@ pub(crate) struct PlannedLabels {
 }
 
 impl PlannedLabels {
-    /// True if `states` are of the planned tables alone.
+    /// True if all `states` belong to the planned tables.
     pub(crate) fn is_of(&self, states: &TaskStates) -> bool {
         let [truth, prediction] = self.digests.map(|digest| digest.to_string());
         states.tables().all(|tables| {
@@ -37,7 +37,7 @@ impl PlannedLabels {
     /// Request that scores `shard`.
     ///
     /// # Errors
-    /// [`EvaluateError::Request`] for a text that is no task or no rule.
+    /// [`EvaluateError::Request`] for a text that is not a task, or for an invalid rule.
     pub(crate) fn request(
         &self,
         shard: Shard,

@@ -103,7 +103,7 @@ impl Runner<'_> {
             Ok(Ok(())) => {
                 log.say("scored");
                 timer.keep(self.folder, &task.key);
-                // A failure record of an earlier attempt.
+                // Removes the failure record of an earlier attempt, if any.
                 drop(Failure::forget(self.folder, &task.key));
                 return Outcome::Scored;
             }
@@ -127,7 +127,7 @@ impl Runner<'_> {
         };
         match failure.write(self.folder) {
             Ok(()) => Outcome::Failed(failure.reason),
-            // As with a full disk: the collector finds neither a result nor a reason.
+            // As for a full disk, the collector finds neither a result nor a failure.
             Err(error) => Outcome::Failed(format!("{}; {error}", failure.reason)),
         }
     }

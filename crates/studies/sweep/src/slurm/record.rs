@@ -18,7 +18,7 @@ const SCHEMA: &str = "taceva.sweep-jobs/1.0";
 pub struct Submitted {
     /// Job ids of the arrays.
     pub arrays: Vec<String>,
-    /// Job id of the job that collects the results.
+    /// Job id of the job that collects the results, if submitted.
     pub collect: Option<String>,
 }
 

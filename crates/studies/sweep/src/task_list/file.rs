@@ -68,7 +68,7 @@ impl TaskList {
     /// Reads the latest list written into `folder`.
     ///
     /// # Errors
-    /// As [`read`](TaskList::read).
+    /// Errors of [`read`](TaskList::read).
     pub fn latest(folder: &SweepFolder) -> Result<TaskList, SweepError> {
         TaskList::read(&latest(folder))
     }

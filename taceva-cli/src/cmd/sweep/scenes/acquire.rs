@@ -50,7 +50,7 @@ impl SweepScene {
         let (planned, path) = (&self.planned, self.run.path());
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let _claim = claim(&with.folder.scene_claim(&name), context)?;
-        // Another process may have begun or finished it meanwhile.
+        // Another process may have begun or finished the scene meanwhile.
         let is_begun = self.run.is_begun(planned)?;
         if is_begun && self.run.is_acquired(planned)? {
             return Ok(());
@@ -84,7 +84,7 @@ impl SweepScene {
         let began = Instant::now();
         let acquired = acquire_scene(planned, &run, setup);
         let mut stages = cache.iter().flat_map(Cache::stages);
-        // Presses that were found in the cache, or are repeated, do not show the time of a press.
+        // A resumed run and presses from the cache do not show the time of a press.
         let is_timed = !is_begun && stages.all(|stage| !stage.reused);
         if is_timed && progress.steps() > 0 {
             SceneTime::new(progress.steps(), began.elapsed()).keep(with.folder, &name);

@@ -9,7 +9,7 @@ pub(super) enum Cause {
     Kernel,
     /// The work of the thread took too long.
     Program,
-    /// The thread was in time, or waited for an answer.
+    /// The device was late: the thread was in time, or waited for an answer.
     Device,
     /// The kernel does not state how long the thread waited for a processor.
     Unknown,

@@ -1,4 +1,4 @@
-//! Halts of a session: how many, how long they took, and the causes of late ones.
+//! Counts, durations and causes of the halts of a session.
 
 use super::causes::{Cause, CauseCounts, remedy};
 use super::halts::Halted;
@@ -12,7 +12,7 @@ pub(super) struct HaltCounts {
     halts: u64,
     /// Longest call, s.
     call_s: f64,
-    /// Longest time to rest that a report showed, s.
+    /// Longest time until a reported rest, s; `None` without such a report.
     rest_s: Option<f64>,
     late: CauseCounts,
     lines: u32,

@@ -15,17 +15,17 @@ const CALL_S: f64 = 0.02;
 const REST_S: f64 = 0.05;
 /// Time after the decision during which poses are read, s.
 const FOLLOWED_S: f64 = 0.2;
-/// Distance between two reports that counts as rest, mm, if poses have less noise.
+/// Greatest distance between two reports of a tip at rest, mm, if poses have less noise.
 const RESTS_MM: f64 = 1e-3;
 
 thread_local! {
-    /// Times of the thread that halts, once it has prepared. The file is open before a halt, because a halt must not wait for a folder.
+    /// Processor times of the halting thread. Their file is opened before a halt, because a halt must not wait for the file system.
     static TIMES: OnceCell<ProcessorQueue> = const { OnceCell::new() };
 }
 
-/// Opens the times of the calling thread, so that its halts can state a cause.
+/// Opens the processor times of the calling thread, so that its halts can state a cause.
 pub(super) fn prepare_this_thread() {
-    // A thread that ends has no times.
+    // While a thread ends, its times are no longer accessible.
     let _ = TIMES.try_with(|times| {
         times.get_or_init(ProcessorQueue::of_this_thread);
     });
@@ -36,31 +36,31 @@ pub(super) fn prepare_this_thread() {
 pub(super) struct HaltCall {
     pub(super) decided_s: f64,
     pub(super) returned_s: f64,
-    /// Times of the thread during the call; `None` if the kernel does not state them.
+    /// Processor times of the thread during the call; `None` if the kernel does not state them.
     pub(super) spent: Option<ThreadTimes>,
 }
 
-/// Halt of a motion, and what is known of its end.
+/// Halt of a motion, with the known facts about its end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Halted {
     pub(super) call: HaltCall,
     /// Time from the decision to the first report of a tip at rest, s; `None` if no report showed it.
     pub(super) rest_s: Option<f64>,
-    /// Time from the decision to the last report after which the tip still moved, s; 0 if no report showed it.
+    /// Time from the decision to the last report that was followed by further motion, s; 0 without such a report.
     pub(super) moved_s: f64,
 }
 
-/// First call of a halt that the watcher has not taken yet. The supervisor is locked during each call.
+/// First call of a halt, until the watcher takes it. The supervisor is locked during each call.
 #[derive(Debug, Default)]
 pub(super) struct HaltCalls(Mutex<Option<HaltCall>>);
 
-/// Halt of a robot that notes its calls.
+/// Halt of a robot that records its calls.
 pub(super) struct TimedHalt {
     robot: Arc<dyn Halt>,
     calls: Arc<HaltCalls>,
 }
 
-/// State of a robot for its follower.
+/// State of a halted robot, for its follower.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Held {
     /// Free to move.
@@ -77,7 +77,7 @@ pub(super) struct HaltFollower {
     /// Noise of a pose at rest, mm.
     slack_mm: f64,
     call: Option<HaltCall>,
-    /// Last pose after the decision, and its time in s.
+    /// Last pose after the decision, and its time in s; `None` before this pose.
     seen: Option<(Pose, f64)>,
     moved_s: f64,
     /// True from the first halt until the robot may move again, or its motion ends. Each later reading halts again.
@@ -130,7 +130,7 @@ impl HaltCall {
         self.returned_s - self.decided_s
     }
 
-    /// Cause of a call that took too long.
+    /// Cause of the delay of a call; `None` for a call in time.
     fn late(&self) -> Option<Cause> {
         let took_s = self.took_s();
         (took_s > CALL_S).then(|| match self.spent {
@@ -143,13 +143,13 @@ impl HaltCall {
 }
 
 impl Halted {
-    /// Cause of the delay of a late halt. A tip that moves on after a call in time is the robot's.
+    /// Cause of the delay of a halt; `None` for a halt in time. If the call was in time, but the tip moved on, the device is the cause.
     pub(super) fn late(&self) -> Option<Cause> {
         let moved_on = self.moved_on().then_some(Cause::Device);
         self.call.late().or(moved_on)
     }
 
-    /// True if a report shows that the tip moved too long. A first report of rest says less, because it may have been read late.
+    /// True if a report shows that the tip moved for too long. A late first report of rest is not sufficient, because it may have been read late.
     pub(super) fn moved_on(&self) -> bool {
         self.moved_s > REST_S
     }
@@ -164,8 +164,8 @@ impl HaltFollower {
         }
     }
 
-    /// Takes the facts of one turn: a halt since the last turn, whether a motion is in progress, and whether a halt holds the robot. Nothing shows the
-    /// rest of a robot that may move again. Returns a halt whose end is known, or is no longer awaited.
+    /// Processes one turn: a halt since the last turn, the presence of a motion, and the state of the robot. A robot that may move again has no rest
+    /// time. Returns a halt whose end is known or no longer awaited; `None` otherwise.
     pub(super) fn turn(
         &mut self,
         call: Option<HaltCall>,
@@ -198,7 +198,7 @@ impl HaltFollower {
         })
     }
 
-    /// Time from the decision to the last report but this one, if both are at one place.
+    /// Time from the decision to the previous report, s, if the tip has not moved since that report; `None` otherwise.
     fn rest_s(&mut self, pose: &Pose, valid_s: f64, decided_s: f64) -> Option<f64> {
         if let Some((seen, seen_s)) = self.seen {
             if valid_s <= seen_s {

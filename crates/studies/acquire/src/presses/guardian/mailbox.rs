@@ -213,7 +213,7 @@ impl Reader {
                     // A closed channel means that the run has ended.
                     let _ = outcome.send(carry_out(task, force));
                     self.heard = Instant::now();
-                    // The time of a task belongs to no turn.
+                    // The time of a task is not part of a turn.
                     timer.restart();
                 }
                 Err(TryRecvError::Empty) => {

@@ -14,9 +14,9 @@ pub(super) struct Misses {
     counts: CauseCounts,
     /// Number of misses. The log has a line for each of the first `MOST_LINES`.
     lines: u32,
-    /// End of the last late turn, s.
+    /// End of the last late turn, s; `None` before the first.
     last_late_s: Option<f64>,
-    /// Stale reading whose cause is not yet known.
+    /// Stale reading whose cause is not yet known, if any.
     stale: Option<Stale>,
 }
 

@@ -16,7 +16,7 @@ use super::turn::Turn;
 /// Interval at which stored lines are shown.
 const SHOW: Duration = Duration::from_millis(20);
 
-/// Counts late turns, stale readings and halts, and shows what was late.
+/// Counts late turns, stale readings and halts, and shows the late ones.
 pub(super) struct Punctuality<'a> {
     noted: Mutex<Noted>,
     progress: &'a dyn Progress,
@@ -63,14 +63,14 @@ impl<'a> Punctuality<'a> {
         noted.lines.extend(line);
     }
 
-    /// Updates the time, after which the cause of a stale reading may be known.
+    /// Updates the time. The cause of a stale reading may then be known.
     pub(super) fn settle(&self, now_s: f64) {
         let mut noted = self.lock();
         let line = noted.misses.settle(now_s);
         noted.lines.extend(line);
     }
 
-    /// Shows lines until `is_over`, on a thread that guards nothing.
+    /// Shows lines until `is_over` is true. Runs on a separate thread, because output may block.
     pub(super) fn show_until(&self, is_over: &AtomicBool) {
         while !is_over.load(Ordering::Acquire) {
             std::thread::sleep(SHOW);
@@ -90,7 +90,7 @@ impl<'a> Punctuality<'a> {
     }
 
     fn show(&self) {
-        // The lock is free again before a line is shown.
+        // The lock is released before a line is shown.
         let lines = std::mem::take(&mut self.lock().lines);
         lines.iter().for_each(|line| self.progress.remark(line));
     }

@@ -3,7 +3,7 @@
 use std::fs::File;
 use std::io::{Read, Seek};
 
-/// Statistics file of a thread, with its waiting time for a processor.
+/// Statistics file of a thread, with its waiting time for a processor; `None` if the system has no such file.
 pub(super) struct ProcessorQueue(Option<File>);
 
 impl ProcessorQueue {
@@ -37,7 +37,7 @@ pub(super) struct ThreadTimes {
 }
 
 impl ThreadTimes {
-    /// First two numbers of `schedstat`, which are in ns.
+    /// Parses the first two numbers of `schedstat`, which are in ns.
     fn of(schedstat: &str) -> Option<ThreadTimes> {
         let mut numbers = schedstat.split_whitespace();
         let mut next_s = || {

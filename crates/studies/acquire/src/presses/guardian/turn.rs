@@ -60,7 +60,7 @@ impl Turn {
 /// Timer of the turns of the thread that created it.
 pub(super) struct TurnTimer {
     queue: ProcessorQueue,
-    /// Total waiting time for a processor until the end of the last turn, s.
+    /// Total waiting time for a processor until the end of the last turn, s; `None` if the kernel does not state it.
     queued_s: Option<f64>,
     began_s: f64,
     due_s: f64,
@@ -80,7 +80,7 @@ impl TurnTimer {
         }
     }
 
-    /// Forgets the time since the end of the last turn.
+    /// Excludes the waiting time since the end of the last turn from the next turn.
     pub(super) fn restart(&mut self) {
         self.queued_s = self.queue.waited_s();
     }

@@ -11,7 +11,7 @@ use crate::grouping::{Grouping, SplitFields};
 
 /// Default number of folds.
 const COUNT: usize = 5;
-/// Minimum number of groups for which a single division scores enough groups. With fewer, cross-validation is the default; each fold has at least one group.
+/// Minimum number of groups for which a single division scores enough groups. For fewer groups, cross-validation is the default.
 const GROUPS_MANY: usize = 1000;
 
 /// Default cross-validation of a recording with few groups. `None` for joined recordings, and for a recording of a run, whose plan divides it.

@@ -70,7 +70,7 @@ pub(super) fn add(
                 true => ScoreColumns::of_class(&row.scores, positive),
                 false => None,
             };
-            // The rule of onsets has the debounce.
+            // The rule of onsets contains the debounce, so it is not applied here.
             let score = score.unwrap_or(f64::from(u8::from(row.before_debounce == positive)));
             let number = row.pair.truth as u64 + 1;
             let time_s = stated_time(truth, row.pair.truth, time)?;

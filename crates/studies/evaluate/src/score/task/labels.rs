@@ -109,7 +109,7 @@ impl ClassNames {
         &self.names
     }
 
-    /// Position of the positive class of `task`.
+    /// Position of the positive class of `task`; `None` without a positive class.
     pub(super) fn positive(&self, task: &TaskSpec) -> Option<u32> {
         self.position(task.positive.as_deref()?)
     }
@@ -118,7 +118,7 @@ impl ClassNames {
         self.positions.get(key_of(name)).copied()
     }
 
-    /// Class in a cell: a name, or the position of a stated name.
+    /// Class in a cell: a name, or the position of a stated name; `None` for other text.
     fn class(&self, cell: &str) -> Option<u32> {
         self.position(cell).or_else(|| {
             let position: u32 = key_of(cell).parse().ok()?;
@@ -126,7 +126,7 @@ impl ClassNames {
         })
     }
 
-    /// Remark on names that the caller did not state.
+    /// Remark on class names from the tables; `None` if the caller stated names.
     pub(super) fn note(&self) -> Option<String> {
         (!self.are_stated).then(|| {
             "the classes are those of the tables, because no names are stated; a class that never occurs is unknown".to_owned()

@@ -34,7 +34,7 @@ impl VectorPair {
     }
 }
 
-/// Size of predictions beside the truth.
+/// Ratio of predictions to the truth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum LikelyScale {
     /// Predictions are a thousandth of the truth.
@@ -44,7 +44,7 @@ pub(super) enum LikelyScale {
 }
 
 impl LikelyScale {
-    /// Scale of `pairs` whose predictions follow the truth at a thousand times its size, or a thousandth; `None` for all others.
+    /// Ratio of `pairs` whose predictions are about 1000 times the truth, or 1/1000 of the truth; `None` for all other pairs.
     ///
     /// Pairs with a zero on either side have no ratio.
     pub(super) fn of(pairs: &[VectorPair]) -> Option<LikelyScale> {
@@ -64,7 +64,7 @@ impl LikelyScale {
         (correlation(pairs) > LEAST_CORRELATION).then_some(scale)
     }
 
-    /// Remark on the columns of `task`, with the word that states the unit.
+    /// Remark on the columns of `task`, with the option that states the unit.
     pub(super) fn remark(self, task: &TaskSpec) -> String {
         let name = shown(&task.name);
         let (size, units, unit) = match self {
@@ -96,7 +96,7 @@ fn length(vector: [f64; 3]) -> f64 {
     squares.iter().sum::<f64>().sqrt()
 }
 
-/// Middle of `numbers`; `None` for too few.
+/// Median of `numbers`; `None` for fewer than [`LEAST_PAIRS`].
 fn median(mut numbers: Vec<f64>) -> Option<f64> {
     if numbers.len() < LEAST_PAIRS {
         return None;
@@ -106,7 +106,7 @@ fn median(mut numbers: Vec<f64>) -> Option<f64> {
     Some(*middle)
 }
 
-/// Correlation of truth and prediction over all three axes, each beside its own mean; NaN if either never changes.
+/// Correlation of truth and prediction over all three axes, relative to the mean of each axis; NaN if either is constant.
 fn correlation(pairs: &[VectorPair]) -> f64 {
     let n = pairs.len() as f64;
     let mut products = [0.0; 3];

@@ -16,7 +16,7 @@ pub(super) fn prefix(task: &TaskSpec) -> String {
 /// Scores of the classes in a table of predictions.
 pub(super) struct ScoreColumns<'a> {
     table: &'a CsvTable,
-    /// Column of each class, in the order of the names.
+    /// Column of each class, in the order of the names; `None` for a class without a column.
     columns: Vec<Option<usize>>,
 }
 
@@ -136,7 +136,7 @@ impl Unmatched<'_> {
         let column = |class: &str| format!("{}{class}", prefix(task));
         let first = self.missing[0];
         let absent = |class: &&&str| Label::of(tables, task, class).is_none();
-        // Stated classes may occur by their positions, or not at all.
+        // If classes are stated, cells may contain their positions, and some classes may not occur.
         let stray = match task.names.is_empty() {
             true => self.stated.iter().find(absent).copied(),
             false => None,

@@ -89,7 +89,7 @@ impl TaskSpec {
     /// Unit of predicted lengths.
     ///
     /// # Errors
-    /// [`EvaluateError::Request`] for an unknown unit, or one that is no length.
+    /// [`EvaluateError::Request`] for an unknown unit, or a unit of another quantity than length.
     pub(super) fn length_unit(&self) -> Result<SourceUnit, EvaluateError> {
         let symbol = self.unit.as_deref().unwrap_or("mm");
         let unit = SourceUnit::parse(symbol).ok();

@@ -5,24 +5,24 @@ use crate::rig_file::RigSensor;
 use crate::text::{SceneError, SceneProblem, Setting};
 
 impl Gather<'_> {
-    /// True if ambient light cannot reach the camera. `stated` is the statement of the source.
+    /// True if ambient light cannot reach the camera; `None` if unknown. `stated` is the statement of the source.
     pub(super) fn opaque(&self, stated: Option<bool>) -> Result<Option<bool>, SceneError> {
         let on_rig = self.gel().and_then(|gel| gel.opaque);
         self.agreed("opaque", [self.study.sensor.opaque, on_rig], stated)
     }
 
-    /// True if the gel has markers. `stated` is the statement of the source.
+    /// True if the gel has markers; `None` if unknown. `stated` is the statement of the source.
     pub(super) fn markers(&self, stated: Option<bool>) -> Result<Option<bool>, SceneError> {
         let on_rig = self.gel().and_then(|gel| gel.markers);
         self.agreed("markers", [self.study.sensor.markers, on_rig], stated)
     }
 
-    /// Sensor in the rig file.
+    /// Sensor in the rig file, if any.
     pub(super) fn gel(&self) -> Option<&RigSensor> {
         self.study.rig.as_ref()?.sensor.as_ref()
     }
 
-    /// Merges the statements of the scene, the rig file and the source about a fact. Rejects a contradiction.
+    /// Merges the statements of the scene, the rig file and the source about a fact; `None` without a statement. Rejects a contradiction.
     fn agreed(
         &self,
         key: &str,

@@ -9,7 +9,7 @@ use crate::source::RigInfo;
 use crate::text::{SceneError, SceneProblem};
 
 impl Gather<'_> {
-    /// Footprint in the scene, else in the rig file, else of the sensor. Each must be within the next.
+    /// Footprint of the scene, otherwise of the rig file, otherwise of the sensor. Each must be within the next.
     pub(super) fn footprint(
         &self,
         stated: Option<Footprint>,

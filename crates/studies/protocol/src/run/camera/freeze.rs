@@ -89,7 +89,7 @@ impl Freeze {
             return false;
         }
         let is_other_press = last.is_left || last.moment.is_in_air != moment.is_in_air;
-        // Presses of two places look different by the force of either.
+        // Between two places, a frame changes by the full force of either press.
         let contrast_n = match moment.is_beside(&last.moment) {
             true => change_n
                 .max(moment.felt.normal_n)

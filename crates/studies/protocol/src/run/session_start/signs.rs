@@ -43,7 +43,7 @@ impl Felt {
         Err(SceneProblem::AxesContradicted {
             felt: wrong.join("; "),
             expected: expected.map(|axes| axes.to_string()),
-            // A robot that moved in another direction than down would have touched nothing.
+            // If the robot had not moved down, it would not have touched the gel.
             may_be_robot: along[2] == Some(Along::positive(2)),
         })
     }
@@ -68,7 +68,7 @@ fn greatest(force: &[f64; 3]) -> Along {
     }
 }
 
-/// Completes three signed axes if at most one is unknown, by the cross product of the other axes.
+/// Completes three signed axes by the cross product of two known axes; `None` if more than one axis is unknown.
 fn whole(along: [Option<Along>; 3]) -> Option<[Along; 3]> {
     let missing: Vec<usize> = (0..3).filter(|axis| along[*axis].is_none()).collect();
     match missing[..] {

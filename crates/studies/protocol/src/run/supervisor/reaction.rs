@@ -11,7 +11,7 @@ const SOONER: f64 = 0.999;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Lateness {
     ages_s: Vec<f64>,
-    /// Times of the first and the last reading, in s.
+    /// Times of the first and the last reading, in s; `None` before the first reading.
     span_s: Option<[f64; 2]>,
 }
 

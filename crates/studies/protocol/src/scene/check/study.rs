@@ -135,7 +135,7 @@ impl Check<'_> {
         Ok(())
     }
 
-    /// Checks the number of folds of `model`, and that the run need not choose one of their models.
+    /// Checks the number of folds of `model`. Rejects folds of a fitted model, and folds in a run that stores its model.
     fn folds(&self, model: &ModelSpec, report: &ReportSpec) -> Checked {
         let Some(folds) = &model.folds else {
             return Ok(());

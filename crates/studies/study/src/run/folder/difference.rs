@@ -11,7 +11,7 @@ const FOLLOWING: [&str; 3] = ["cost", "digest", "rig"];
 /// Value of a missing key.
 static NULL: Value = Value::Null;
 
-/// First line that differs between two scenes: `line 3 was …`.
+/// First line that differs between two scenes, `line 3 was …`; `None` for equal scenes.
 pub(super) fn of_scenes(before: &str, now: &str) -> Option<String> {
     let mut lines = (before.lines(), now.lines());
     (1_u32..)
@@ -33,7 +33,7 @@ pub(super) fn of_scenes(before: &str, now: &str) -> Option<String> {
         })
 }
 
-/// First value that differs between two texts of plans: `studies.0.seed was 1 and is now 2`.
+/// First value that differs between two texts of plans, such as `studies.0.seed was 1 and is now 2`; `None` for equal plans.
 pub(super) fn of_plans(before: &str, now: &str) -> Option<String> {
     let read = |text: &str| serde_json::from_str::<Value>(text).ok();
     of_values("", &read(before)?, &read(now)?)

@@ -60,7 +60,7 @@ impl RunFolder {
         for (number, study) in scene.studies.iter().enumerate() {
             match Dataset::open(&self.recording(number, &study.plan.name)) {
                 Ok(_) => {}
-                // It does not exist, was not closed, or another process is recording.
+                // The recording does not exist, was not closed, or is being made by another process.
                 Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::Busy) => {
                     return Ok(false);
                 }
