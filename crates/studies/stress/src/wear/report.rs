@@ -5,6 +5,7 @@ use serde::Serialize;
 use taceva_core::Date;
 use taceva_results::{Provenance, Subject};
 
+use crate::difference::ErrorDifference;
 use crate::estimate::{Estimate, Undefined};
 use crate::report::ByChannel;
 use crate::wear::order::WearBy;
@@ -68,26 +69,9 @@ pub struct RecordingWear {
     /// Mean absolute errors.
     pub mae: ByChannel<Estimate>,
     /// Differences of the errors from the errors of the first recording; empty for the first recording.
-    pub differences: ByChannel<WearDifference>,
+    pub differences: ByChannel<ErrorDifference>,
     /// Origin of the numbers.
     pub provenance: Provenance,
-}
-
-/// Difference of the error of a recording from the error of the first recording.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct WearDifference {
-    /// The difference, in the unit of the channel.
-    pub value: Option<f64>,
-    /// Both ends of its interval.
-    pub interval: Option<[f64; 2]>,
-    /// Confidence of the interval, more than 0.95 among several differences.
-    pub confidence: Option<f64>,
-    /// p value, adjusted for all differences of the gel.
-    pub p: Option<f64>,
-    /// True if a difference is shown.
-    pub is_shown: bool,
-    /// Reason for an absent difference.
-    pub reason: Option<String>,
 }
 
 /// Growth of the error of one channel.
