@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use taceva_stress::{FAULTS, Fault, RECORDING_FAULTS, TAXEL_FAULTS, TIME_FAULTS};
 
-use super::{ExplainArgs, Output, SeedArgs, ViewArgs};
+use super::{ExplainArgs, Output, PageArgs, SeedArgs, ViewArgs};
 
 /// Score a fitted model on pictures or signals with faults: blur, dead pixels, lost light, wear, dust, dead taxels
 ///
@@ -52,6 +52,8 @@ pub(crate) struct Stress {
     /// An SVG file: the growth of each error by fault and severity
     #[arg(long, value_name = "FILE.svg")]
     pub(crate) svg: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) page: PageArgs,
     /// A new folder: the picture of the greatest load with each fault and severity, as PNG, with digests
     #[arg(long, value_name = "DIR")]
     pub(crate) keep_frames: Option<PathBuf>,
