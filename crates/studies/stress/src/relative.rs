@@ -1,9 +1,10 @@
 //! Errors that faults add, relative to those of a reference model.
 
+use taceva_core::counted;
 use taceva_dataset::Dataset;
 use taceva_evaluate::{EvaluateError, Work, model_provenance};
 use taceva_metrics::distributions::student_t;
-use taceva_metrics::{Difference, LEAST_CLUSTERS, Sides, SignFlip};
+use taceva_metrics::{Difference, LEAST_CLUSTERS, Sides, SignFlip, holm};
 use taceva_models::Model;
 
 use crate::difference::decided;
@@ -13,6 +14,9 @@ use crate::ratio::{Errors, UPPER};
 use crate::report::{ByChannel, CleanScore, FaultReport, StressReport};
 use crate::setup::StressRequest;
 use crate::study::stress_beside;
+
+/// Greatest p value of a shown difference.
+const LEVEL: f64 = 0.05;
 
 /// Adds to `report` its errors relative to those of the model `reference`. [`stress_beside`](crate::stress_beside) made `report` of the same request.
 ///
@@ -53,6 +57,7 @@ pub fn add_reference(
         let relative: ByChannel<Estimate> = channels.collect();
         fault.relative_error = Some(relative);
     }
+    report.notes.extend(out_of_reach(&tested));
     let mut decided = decided(tested).into_iter();
     for fault in &mut report.faults {
         let channels = fault.relative_error.as_ref().map(ByChannel::keys);
@@ -168,6 +173,20 @@ fn difference(own: &Excess<'_>, reference: &Excess<'_>, seed: u64) -> Result<Dif
     tested.map_err(|reason| reason.to_string())
 }
 
+/// Note that no values could show a difference, because the patterns of signs are too few for the family; `None` if some values could.
+fn out_of_reach(tested: &[Result<Difference, String>]) -> Option<String> {
+    let least = tested.iter().flatten().map(|of| of.test.least_p());
+    let least: Vec<f64> = least.collect();
+    let adjusted = holm(&least).ok()?;
+    let smallest = adjusted.iter().copied().reduce(f64::min)?;
+    (smallest > LEVEL).then(|| {
+        format!(
+            "No difference from the reference model can be shown: the smallest possible p is {smallest:.2} by Holm over {}; score more contact points or name fewer faults.",
+            counted(least.len(), "difference")
+        )
+    })
+}
+
 /// 95 % interval of `value` by the jackknife over clusters. `left_out` has the value without a cluster, and `sizes` the number of all errors divided by that of
 /// each cluster.
 ///
@@ -218,6 +237,24 @@ mod tests {
         assert_eq!((found.value, found.p), (1.5, 28.0 / 64.0));
         let back = difference(&of(&reference), &of(&own), 1).expect("six points");
         assert_eq!((back.value, back.p), (-1.5, found.p));
+    }
+
+    #[test]
+    fn a_family_that_is_too_large_for_its_points_is_noted() {
+        let (none, own) = (errors([0.0; 6]), errors([2.0; 6]));
+        let of = |fault| Excess {
+            clean: &none,
+            cells: vec![fault],
+        };
+        let tested = || Ok(difference(&of(&own), &of(&none), 1).expect("six points"));
+        assert_eq!(out_of_reach(&[Err("no skill".to_owned())]), None);
+        // Six points have 64 patterns of signs: the least p is 1/32.
+        assert_eq!(out_of_reach(&[tested()]), None);
+        let said = out_of_reach(&[tested(), tested()]).expect("a note");
+        assert!(
+            said.contains("p is 0.06 by Holm over 2 differences"),
+            "{said}"
+        );
     }
 
     #[test]
