@@ -251,16 +251,21 @@ fn tests(report: &StressReport, channels: &[&str]) -> Option<String> {
     });
     let untested: BTreeSet<String> = untested.collect();
     let untested: Vec<String> = untested.into_iter().collect();
+    let untested = untested.join("; ");
     let tested = all.flatten().filter(|(_, of)| of.p.is_some());
-    let tested = counted(tested.count(), "difference");
-    let mut line = format!(
-        "Differences from the reference model: paired sign-flip tests by contact point, p and intervals by Holm over {tested}; others are not shown"
-    );
-    if !untested.is_empty() {
-        line.push_str(&format!("; not tested: {}", untested.join("; ")));
-    }
-    line.push('.');
-    Some(line)
+    let tested = match tested.count() {
+        0 => String::new(),
+        count => format!(
+            ": paired sign-flip tests by contact point or group, p and intervals by Holm over {}; others are not shown",
+            counted(count, "difference")
+        ),
+    };
+    let untested = match untested.is_empty() {
+        true => untested,
+        false => format!("; not tested: {untested}"),
+    };
+    let words = tested + &untested;
+    (!words.is_empty()).then(|| format!("Differences from the reference model{words}."))
 }
 
 /// Metrics of time without a fault and at each severity, on one line.

@@ -57,7 +57,7 @@ fn a_verdict_names_a_shown_difference_from_the_reference_model_and_none_that_is_
         "{said}"
     );
     assert!(
-        said.contains("by contact point, p and intervals by Holm over"),
+        said.contains("by contact point or group, p and intervals by Holm over"),
         "{said}"
     );
 
