@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use taceva_stress::{FAULTS, Fault, RECORDING_FAULTS, TAXEL_FAULTS, TIME_FAULTS};
 
-use super::{ExplainArgs, Output, SeedArgs, ViewArgs};
+use super::{ExplainArgs, Output, PageArgs, SeedArgs, ViewArgs};
 
 /// Score a fitted model on pictures or signals with faults: blur, dead pixels, lost light, wear, dust, dead taxels
 ///
@@ -27,7 +27,7 @@ pub(crate) struct Stress {
     /// times, ORG/NAME for a fault of a plugin [default: gel-12, or taxel-3 if the model reads signals]
     #[arg(long, value_name = "FAULTS", value_delimiter = ',')]
     pub(crate) faults: Vec<String>,
-    /// A second fitted model: states the error that each fault adds, divided by the error that it adds to this model
+    /// A second fitted model: states the error that each fault adds, divided by the error that it adds to this model, and shown differences of both
     #[arg(long, value_name = "MODEL")]
     pub(crate) reference: Option<PathBuf>,
     /// Severities, such as 3, 1,3,5 or 1-5
@@ -52,6 +52,8 @@ pub(crate) struct Stress {
     /// An SVG file: the growth of each error by fault and severity
     #[arg(long, value_name = "FILE.svg")]
     pub(crate) svg: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) page: PageArgs,
     /// A new folder: the picture of the greatest load with each fault and severity, as PNG, with digests
     #[arg(long, value_name = "DIR")]
     pub(crate) keep_frames: Option<PathBuf>,

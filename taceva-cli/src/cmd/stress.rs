@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::Context as _;
 use taceva_core::{InputInfo, shown};
 use taceva_evaluate::{DataPart, EvaluateError, Plan};
-use taceva_report::FaultResult;
+use taceva_report::{FaultResult, fault_page};
 use taceva_stress::{
     By, Examples, OtherFaults, PictureFault, StressReport, StressRequest, add_reference,
     severities, stress_beside, stress_plan, usual_list,
@@ -35,7 +35,7 @@ fn check_file_of(option: &str, path: &Path) -> anyhow::Result<()> {
 
 pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
     let files = args.output.path.iter().chain(&args.svg);
-    output::check_all_free(files, args.output.force)?;
+    output::check_all_free(files.chain(&args.page.path), args.output.force)?;
     check_model_file(&args.model)?;
     args.keep_frames
         .as_deref()
@@ -123,6 +123,10 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = &args.svg {
         let figure = FaultResult::read(&json)?.figure();
         output::write(Some(path), |out| out.write_all(figure.svg().as_bytes()))?;
+    }
+    if let Some(path) = &args.page.path {
+        let page = fault_page(FaultResult::read(&json)?);
+        output::write(Some(path), |out| out.write_all(page.as_bytes()))?;
     }
     if let Some(folder) = &args.keep_frames {
         let examples = Examples::of(&dataset, &found)?;

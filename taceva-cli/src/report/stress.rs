@@ -2,6 +2,8 @@
 
 mod numbers;
 
+use std::collections::BTreeSet;
+
 use taceva_core::counted;
 use taceva_report::{Cell, Column, FormattedValue, Table, main_channels};
 use taceva_stress::{By, Estimate, FaultReport, NEVER, StressReport, TARGETS, Undefined};
@@ -84,6 +86,7 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     notes.push(format!("Error without a fault: {}.", clean.join(", ")));
     let faults = report.faults.iter();
     notes.extend(faults.map(|fault| of_fault(report, fault, channels)));
+    notes.extend(tests(report, channels));
     let mean = by_channel(channels, |name| Some(phrase(report.mean.get(name)?, "")));
     let is_bound = report.faults.iter().any(|fault| fault.stopped_at.is_some());
     let bound = if is_bound { "≥ " } else { "" };
@@ -194,6 +197,7 @@ fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> St
             "; added error relative to the reference model: {relative}"
         ));
     }
+    line.push_str(&verdicts(report, fault, channels));
     let renewed = match report.input {
         "signals" => "new untouched signals remove",
         _ => "a new untouched picture removes",
@@ -213,6 +217,55 @@ fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> St
     }
     line.push('.');
     line
+}
+
+/// Shown differences of the added error from that of the reference model; empty if none is shown.
+fn verdicts(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> String {
+    let sides = [("less", true), ("more", false)].into_iter();
+    let words = sides.map(|(side, is_less)| {
+        let shown = by_channel(channels, |name| {
+            let of = fault.difference.as_ref()?.get(name)?;
+            let value = of.value.filter(|value| of.is_shown && (*value < 0.0) == is_less)?;
+            let unit = report.units.get(name)?;
+            let size = FormattedValue::number(value, of.interval).phrase(&format!(" {unit}"));
+            Some(format!("{size}, p = {}", short(of.p?)))
+        });
+        match shown.is_empty() {
+            true => shown,
+            false => format!(
+                "; it is shown to add {side} error than to the reference model, as a mean over severities: {shown}"
+            ),
+        }
+    });
+    words.collect()
+}
+
+/// Remark on the test of differences from the reference model, with the differences that were not tested; `None` without a reference model.
+fn tests(report: &StressReport, channels: &[&str]) -> Option<String> {
+    report.reference.as_ref()?;
+    let all = report.faults.iter().filter_map(|of| of.difference.as_ref());
+    let untested = all.clone().flatten().filter_map(|(name, of)| {
+        let reason = of.reason.as_ref()?;
+        let is_main = channels.contains(&name.as_str());
+        is_main.then(|| format!("{name}: {reason}"))
+    });
+    let untested: BTreeSet<String> = untested.collect();
+    let untested: Vec<String> = untested.into_iter().collect();
+    let untested = untested.join("; ");
+    let tested = all.flatten().filter(|(_, of)| of.p.is_some());
+    let tested = match tested.count() {
+        0 => String::new(),
+        count => format!(
+            ": paired sign-flip tests by contact point or group, p and intervals by Holm over {}; others are not shown",
+            counted(count, "difference")
+        ),
+    };
+    let untested = match untested.is_empty() {
+        true => untested,
+        false => format!("; not tested: {untested}"),
+    };
+    let words = tested + &untested;
+    (!words.is_empty()).then(|| format!("Differences from the reference model{words}."))
 }
 
 /// Metrics of time without a fault and at each severity, on one line.

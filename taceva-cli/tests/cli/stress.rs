@@ -128,6 +128,25 @@ fn a_figure_shows_the_growth_by_fault_and_severity() {
 }
 
 #[test]
+fn a_page_of_its_own_has_the_section_on_faults() {
+    let bench = bench();
+    let words = format!("{STRESS} --by parameter --html faults.html");
+    let said = bench.ok(&format!("{words} -q"));
+    assert!(said.contains("skill ends at severity"), "{said}");
+    let page = fs::read_to_string(bench.path("faults.html")).expect("written");
+    for words in [
+        "<h2 id=\"h-faults\">Faults</h2>",
+        "drawn: errors with faults",
+        "defocus, severity 4: ",
+        "mean degradation over all faults: ",
+        "Nothing here was measured",
+    ] {
+        assert!(page.contains(words), "{words} in {page}");
+    }
+    bench.refused(&words, 3, "faults.html exists already; --force replaces it");
+}
+
+#[test]
 fn a_result_is_written_to_a_file_once() {
     let bench = bench();
     let words = format!("{STRESS} --format json --out stress.json");

@@ -67,6 +67,15 @@ pub(crate) struct FaultScores {
     pub(crate) severities: Vec<SeverityScores>,
     pub(crate) unreached: Vec<Unreached>,
     pub(crate) breaks_at: BTreeMap<String, Option<u8>>,
+    /// Added error less that of the reference model; empty without one.
+    #[serde(default)]
+    pub(crate) difference: BTreeMap<String, ErrorDifference>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+pub(crate) struct ErrorDifference {
+    pub(crate) value: Option<f64>,
+    pub(crate) is_shown: bool,
 }
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]

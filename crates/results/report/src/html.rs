@@ -25,6 +25,7 @@ mod triple;
 
 pub(crate) use data_address::address as picture_address;
 pub(crate) use document::Document;
+pub use faults::fault_page;
 pub(crate) use figures::{one as drawn, radars};
 pub use picks::{Pick, picks};
 pub use pictures::Picture;

@@ -63,7 +63,7 @@ pub use figures::{
     Race, RacePoint, StudyFigures, figures, figures_for, model_bench, race, study_figures, undrawn,
 };
 pub use gauge::{ChannelGauge, GaugeColumns, GaugeStudies};
-pub use html::{Pick, Picture, ReportPage, Triple, picks, report};
+pub use html::{Pick, Picture, ReportPage, Triple, fault_page, picks, report};
 pub use names::names;
 pub use number::{FormattedValue, spaced, with_interval};
 pub use paper::{PaperForm, paper_form};

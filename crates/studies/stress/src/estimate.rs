@@ -52,7 +52,9 @@ impl fmt::Display for Undefined {
             Undefined::ZeroBaseline => "the error without the fault is 0",
             Undefined::ConstantTruth => "all labels are equal",
             Undefined::NoExcess => "the fault adds no error",
-            Undefined::NoFreshReference => "no untouched picture or signals were taken after the fault",
+            Undefined::NoFreshReference => {
+                "no untouched picture or signals were taken after the fault"
+            }
             Undefined::NoClusters => "no contact points",
             Undefined::TooFewClusters => "fewer than five contact points",
             Undefined::NoInterval => "no interval",

@@ -2,6 +2,7 @@
 
 mod canvas;
 mod cells;
+mod difference;
 mod estimate;
 mod example;
 mod fault;
@@ -35,6 +36,7 @@ mod times;
 mod wear;
 mod worn;
 
+pub use difference::ErrorDifference;
 pub use estimate::{Estimate, Undefined};
 pub use example::Examples;
 pub use fault::{Fault, Scope};
@@ -55,7 +57,7 @@ pub use severity::{By, NEVER, TARGETS, Unreached, severities};
 pub use stress::Stress;
 pub use study::{stress, stress_beside, stress_unseen};
 pub use wear::{
-    ChannelWear, GelWear, LimitMet, RecordingWear, WEAR_SCHEMA, WearBy, WearDifference, WearReport,
-    WearRequest, wear,
+    ChannelWear, GelWear, LimitMet, RecordingWear, WEAR_SCHEMA, WearBy, WearReport, WearRequest,
+    wear,
 };
 pub use worn::{WornFault, WornGel};

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use taceva_metrics::LEAST_CLUSTERS;
 use taceva_metrics::distributions::student_t;
 use taceva_metrics::elementary::exponential;
+use taceva_metrics::{ClusterSum, ClusterSums, LEAST_CLUSTERS};
 
 use crate::estimate::{Estimate, Undefined};
 
@@ -76,6 +76,28 @@ impl Errors {
         let clusters = self.clusters.as_deref().unwrap_or_default();
         let own = clusters[left];
         (self.total - own.sum) / (self.count - own.count) as f64
+    }
+
+    /// Mean over `cells` of their errors less these errors, summed by cluster; `None` if a cluster is unknown or has other samples in a cell, or if a sum is
+    /// not finite.
+    pub(crate) fn added_by(&self, cells: &[&Errors]) -> Option<ClusterSums> {
+        let own = self.clusters.iter().flatten().enumerate();
+        let sums = own.map(|(at, clean)| {
+            let mut added = 0.0;
+            for cell in cells {
+                let with = cell.clusters.as_deref()?.get(at)?;
+                if with.count != clean.count {
+                    return None;
+                }
+                added += with.sum - clean.sum;
+            }
+            let added = added / cells.len() as f64;
+            let mut sum = ClusterSum::default();
+            sum.n = clean.count;
+            sum.sum.add(added.is_finite().then_some(added)?);
+            Some((format!("{at:09}"), sum))
+        });
+        sums.collect()
     }
 
     /// Relative change of the mean error if only the errors outside of the cluster at `left` remain.

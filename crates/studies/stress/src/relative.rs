@@ -1,19 +1,28 @@
 //! Errors that faults add, relative to the errors of a reference model.
 
+use taceva_core::counted;
 use taceva_dataset::Dataset;
 use taceva_evaluate::{EvaluateError, Work, model_provenance};
-use taceva_metrics::LEAST_CLUSTERS;
 use taceva_metrics::distributions::student_t;
+use taceva_metrics::{Difference, LEAST_CLUSTERS, Sides, SignFlip, holm};
 use taceva_models::Model;
 
+use crate::difference::decided;
 use crate::estimate::{Estimate, Undefined};
 use crate::others::OtherFaults;
 use crate::ratio::{Errors, UPPER};
-use crate::report::{ByChannel, FaultReport, StressReport};
+use crate::report::{ByChannel, CleanScore, FaultReport, StressReport};
 use crate::setup::StressRequest;
 use crate::study::stress_beside;
 
+<<<<<<< HEAD
 /// Adds to `report` its errors relative to the errors of `reference`. [`stress_beside`](crate::stress_beside) made `report` of the same request.
+=======
+/// Greatest p value of a shown difference.
+const LEVEL: f64 = 0.05;
+
+/// Adds to `report` its errors relative to those of the model `reference`. [`stress_beside`](crate::stress_beside) made `report` of the same request.
+>>>>>>> faults2
 ///
 /// # Errors
 /// Errors of [`stress`](crate::stress()), and [`EvaluateError::Request`] if the reference model scores other samples.
@@ -34,6 +43,7 @@ pub fn add_reference(
         )));
     }
     let own_clean = &report.basis.clean;
+    let mut tested: Vec<Result<Difference, String>> = Vec::new();
     for fault in &mut report.faults {
         let mut others = found.faults.iter();
         let Some(beside) = others.find(|other| other.id == fault.id) else {
@@ -42,14 +52,40 @@ pub fn add_reference(
         let channels = fault.mean.keys().filter_map(|channel| {
             let own = Excess::of(fault, beside, own_clean, channel)?;
             let other = Excess::of(beside, fault, &found.basis.clean, channel)?;
+            tested.push(match without_skill(channel, &report.clean, &found.clean) {
+                Some(reason) => Err(reason.to_owned()),
+                None => difference(&own, &other, request.seed),
+            });
             Some((channel.clone(), ratio(&own, &other)))
         });
         let relative: ByChannel<Estimate> = channels.collect();
         fault.relative_error = Some(relative);
     }
+    report.notes.extend(out_of_reach(&tested));
+    let mut decided = decided(tested).into_iter();
+    for fault in &mut report.faults {
+        let channels = fault.relative_error.as_ref().map(ByChannel::keys);
+        fault.difference = channels.map(|channels| channels.cloned().zip(&mut decided).collect());
+    }
     report.reference = Some(model_provenance(reference)?);
     report.provenance.frames_decoded += found.provenance.frames_decoded;
     Ok(())
+}
+
+/// Reason why a model takes no part in verdicts on `channel`: without skill, faults cannot add to its error.
+fn without_skill(
+    channel: &str,
+    own: &ByChannel<CleanScore>,
+    reference: &ByChannel<CleanScore>,
+) -> Option<&'static str> {
+    let lacks_skill = |of: &ByChannel<CleanScore>| {
+        let score = of.get(channel);
+        score.is_some_and(|score| score.skill.is_above_zero() == Some(false))
+    };
+    if lacks_skill(own) {
+        return Some("the model has no skill even without a fault");
+    }
+    lacks_skill(reference).then_some("the reference model has no skill even without a fault")
 }
 
 /// Errors of a channel without a fault and at some severities of a fault.
@@ -125,8 +161,43 @@ fn ratio(own: &Excess<'_>, reference: &Excess<'_>) -> Estimate {
     Estimate::new(added / by, interval(added / by, &sizes, left_out))
 }
 
+<<<<<<< HEAD
 /// 95 % interval of `value` by the jackknife over clusters. `left_out` returns the value without a cluster. `sizes` has the number of all errors
 /// divided by the number of errors of each cluster.
+=======
+/// Error that a fault adds to the model less that which it adds to the reference model, by a paired sign-flip test over clusters.
+fn difference(own: &Excess<'_>, reference: &Excess<'_>, seed: u64) -> Result<Difference, String> {
+    if own.cells.is_empty() {
+        return Err(Undefined::NoSeverity.to_string());
+    }
+    if own.clean.clusters().is_none() {
+        return Err(Undefined::NoClusters.to_string());
+    }
+    let [Some(a), Some(b)] = [own, reference].map(|of| of.clean.added_by(&of.cells)) else {
+        return Err("the samples of a contact point differ between severities".to_owned());
+    };
+    let sums = Sides { a: &a, b: &b };
+    let tested = SignFlip::default().with_seed(seed).test(sums);
+    tested.map_err(|reason| reason.to_string())
+}
+
+/// Note that no values could show a difference, because the patterns of signs are too few for the family; `None` if some values could.
+fn out_of_reach(tested: &[Result<Difference, String>]) -> Option<String> {
+    let least = tested.iter().flatten().map(|of| of.test.least_p());
+    let least: Vec<f64> = least.collect();
+    let adjusted = holm(&least).ok()?;
+    let smallest = adjusted.iter().copied().reduce(f64::min)?;
+    (smallest > LEVEL).then(|| {
+        format!(
+            "No difference from the reference model can be shown: the smallest possible p is {smallest:.2} by Holm over {}; score more contact points or name fewer faults.",
+            counted(least.len(), "difference")
+        )
+    })
+}
+
+/// 95 % interval of `value` by the jackknife over clusters. `left_out` has the value without a cluster, and `sizes` the number of all errors divided by that of
+/// each cluster.
+>>>>>>> faults2
 ///
 /// # Reference
 /// Busing, Meijer and van der Leeden, Delete-m jackknife for unequal m, Statistics and Computing 9 (1999).
@@ -147,5 +218,66 @@ fn interval(
     match half.is_finite() {
         true => Ok([value - half, value + half]),
         false => Err(Undefined::NoInterval),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Errors of two samples at each of six contact points: 1 N, and what a fault adds.
+    fn errors(added: [f64; 6]) -> Errors {
+        let rows = || added.iter().flat_map(|added| [added, added]).enumerate();
+        let names: Vec<String> = rows().map(|(row, _)| format!("p{}", row / 2)).collect();
+        let errors: Vec<Option<f64>> = rows().map(|(_, added)| Some(1.0 + added)).collect();
+        Errors::of(&errors, Some(&names))
+    }
+
+    #[test]
+    fn the_difference_of_added_errors_is_a_mean_over_severities_and_flips_signs_of_points() {
+        let (none, own) = (errors([0.0; 6]), errors([2.0, 4.0, 6.0, 8.0, 10.0, 0.0]));
+        let reference = errors([0.0, 0.0, 0.0, 0.0, 0.0, 12.0]);
+        let of = |fault| Excess {
+            clean: &none,
+            cells: vec![fault, &none],
+        };
+        // Differences 1, 2, 3, 4, 5, −6: 28 of 64 patterns of signs have a sum of at least 9.
+        let found = difference(&of(&own), &of(&reference), 1).expect("six points");
+        assert_eq!((found.value, found.p), (1.5, 28.0 / 64.0));
+        let back = difference(&of(&reference), &of(&own), 1).expect("six points");
+        assert_eq!((back.value, back.p), (-1.5, found.p));
+    }
+
+    #[test]
+    fn a_family_that_is_too_large_for_its_points_is_noted() {
+        let (none, own) = (errors([0.0; 6]), errors([2.0; 6]));
+        let of = |fault| Excess {
+            clean: &none,
+            cells: vec![fault],
+        };
+        let tested = || Ok(difference(&of(&own), &of(&none), 1).expect("six points"));
+        assert_eq!(out_of_reach(&[Err("no skill".to_owned())]), None);
+        // Six points have 64 patterns of signs: the least p is 1/32.
+        assert_eq!(out_of_reach(&[tested()]), None);
+        let said = out_of_reach(&[tested(), tested()]).expect("a note");
+        assert!(
+            said.contains("p is 0.06 by Holm over 2 differences"),
+            "{said}"
+        );
+    }
+
+    #[test]
+    fn errors_without_points_or_of_other_samples_have_no_difference() {
+        let (whole, unnamed) = (errors([0.0; 6]), Errors::of(&[Some(1.0); 12], None));
+        let points: Vec<String> = (0..6).map(|point| format!("p{point}")).collect();
+        let fewer = Errors::of(&[Some(1.0); 6], Some(&points));
+        let refused = |clean, cell| {
+            let cells = vec![cell];
+            let of = Excess { clean, cells };
+            difference(&of, &of, 1).expect_err("no difference")
+        };
+        assert_eq!(refused(&unnamed, &whole), "no contact points");
+        let said = refused(&whole, &fewer);
+        assert!(said.contains("differ between severities"), "{said}");
     }
 }

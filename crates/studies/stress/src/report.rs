@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use taceva_results::{ModelProvenance, Provenance, Subject};
 
+use crate::difference::ErrorDifference;
 use crate::estimate::Estimate;
 use crate::faults::LISTS;
 use crate::ratio::Errors;
@@ -66,7 +67,7 @@ pub struct StressReport {
     pub notes: Vec<String>,
     /// Origin of the numbers.
     pub provenance: Provenance,
-    /// Model to whose errors `relative_error` of each fault refers; `None` without one.
+    /// Model to whose errors `relative_error` and `difference` of each fault refer; `None` without one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reference: Option<ModelProvenance>,
     /// Scored rows, and their errors without a fault.
@@ -144,6 +145,9 @@ pub struct FaultReport {
     /// Added error over all severities, divided by the added error of the reference model; `None` without a reference model.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relative_error: Option<ByChannel<Estimate>>,
+    /// Added error less that of the reference model, as means over the severities of both; `None` without a reference model.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub difference: Option<ByChannel<ErrorDifference>>,
     /// Metrics of time without the fault; empty for a fault that leaves no rows out.
     #[serde(skip_serializing_if = "ByChannel::is_empty")]
     pub times: ByChannel<TimeScore>,

@@ -276,6 +276,7 @@ impl Results<'_> {
                 last.filter(|_| severities.len() < levels.reached.len())
             },
             relative_error: None,
+            difference: None,
             times: ByChannel::new(),
             errors: scored.iter().map(|of| of.stale.errors.clone()).collect(),
             severities,

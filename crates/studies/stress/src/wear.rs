@@ -24,9 +24,7 @@ use order::{Order, Placed};
 use trend::{ErrorAt, Trend};
 
 pub use order::WearBy;
-pub use report::{
-    ChannelWear, GelWear, LimitMet, RecordingWear, WEAR_SCHEMA, WearDifference, WearReport,
-};
+pub use report::{ChannelWear, GelWear, LimitMet, RecordingWear, WEAR_SCHEMA, WearReport};
 
 /// Order of recordings, and limits of errors.
 #[derive(Clone, Debug, Default)]

@@ -161,6 +161,7 @@ impl NewGel<'_> {
             unreached: Vec::new(),
             stopped_at: None,
             relative_error: None,
+            difference: None,
             times: ByChannel::new(),
             errors: cells.iter().map(|cell| cell.errors.clone()).collect(),
             severities,

@@ -2,8 +2,8 @@
 
 use taceva_report::{Cell, Table};
 use taceva_stress::{
-    ByChannel, CellScore, Estimate, FaultReport, SeverityReport, StressReport, TimeScore,
-    Unnoticed, Unreached,
+    ByChannel, CellScore, ErrorDifference, Estimate, FaultReport, SeverityReport, StressReport,
+    TimeScore, Unnoticed, Unreached,
 };
 
 /// Remark on a fault whose higher severities are not tested.
@@ -54,6 +54,9 @@ pub(crate) fn numbers(report: &StressReport) -> Table {
         }
         for (channel, ratio) in fault.relative_error.iter().flatten() {
             rows.push(&whole, channel, "relative_error", ratio, "1");
+        }
+        for (channel, of) in fault.difference.iter().flatten() {
+            rows.push_difference(&whole, channel, of);
         }
         for (channel, severity) in &fault.breaks_at {
             let severity = Estimate::of_known(severity.map(f64::from));
@@ -168,6 +171,15 @@ impl<'a> Rows<'a> {
         for hidden in report.unnoticed.iter().flatten().filter(is_own) {
             self.push_words(&place, &hidden.channel, "unnoticed", Some(1.0), "");
         }
+    }
+
+    /// Difference from the added error of the reference model, with its p value.
+    fn push_difference(&mut self, place: &Place<'_>, channel: &str, of: &ErrorDifference) {
+        let unit = self.unit(channel);
+        let reason = of.reason.as_deref().unwrap_or_default();
+        let value = Estimate::of_known(of.value);
+        self.push_row(place, channel, "difference", &value, unit, reason);
+        self.push_words(place, channel, "difference_p", of.p, reason);
     }
 
     fn push_times(&mut self, place: &Place<'_>, times: &ByChannel<TimeScore>) {

@@ -25,6 +25,7 @@ fn a_reference_model_adds_relative_errors_to_text_csv_and_json() {
     );
     let csv = bench.ok(&format!("{words} --format csv -q"));
     assert!(csv.contains(",relative_error,"), "{csv}");
+    assert!(csv.contains(",difference_p,"), "{csv}");
     let plan = bench.ok(&format!("{words} --explain"));
     assert!(plan.contains("the same with the model r.taceva"), "{plan}");
     let alone = bench.json("stress unseen --model m.taceva --faults dust --by parameter");
@@ -34,6 +35,40 @@ fn a_reference_model_adds_relative_errors_to_text_csv_and_json() {
         2,
         "--reference ridge: no such file",
     );
+}
+
+#[test]
+fn a_verdict_names_a_shown_difference_from_the_reference_model_and_none_that_is_not_shown() {
+    let bench = bench();
+    bench.ok("fit seen --model ridge --set size=8x8 --set strength=20 --out weak.taceva -q");
+    bench.ok("fit seen --model baseline --out constant.taceva -q");
+    let beside = |reference: &str| {
+        format!(
+            "stress unseen --model m.taceva --reference {reference}.taceva --faults exposure_low --by parameter"
+        )
+    };
+    let report = bench.json(&beside("weak"));
+    crate::schema::check("stress", &report);
+    let difference = &report["faults"][0]["difference"]["Fz"];
+    assert_eq!(difference["is_shown"], true, "{difference}");
+    let said = bench.ok(&format!("{} -q", beside("weak")));
+    assert!(
+        said.contains("it is shown to add more error than to the reference model"),
+        "{said}"
+    );
+    assert!(
+        said.contains("by contact point or group, p and intervals by Holm over"),
+        "{said}"
+    );
+
+    let same = bench.ok(&format!("{} -q", beside("m")));
+    assert!(!same.contains("it is shown to add"), "{same}");
+    let constant = bench.ok(&format!("{} -q", beside("constant")));
+    assert!(
+        constant.contains("not tested: Fz: the reference model has no skill even without a fault"),
+        "{constant}"
+    );
+    assert!(!constant.contains("it is shown to add"), "{constant}");
 }
 
 #[test]

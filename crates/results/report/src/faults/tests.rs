@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::FaultResult;
-use crate::{Need, ReportPage, Study, choose_results, report};
+use crate::{Need, ReportPage, Study, choose_results, fault_page, report};
 
 /// Result of the sensor `sensor` over the faults of `list`, with a mean degradation of Fz of `mean`.
 pub(crate) fn drawn(sensor: &str, list: &str, mean: f64) -> FaultResult {
@@ -69,6 +69,39 @@ fn a_page_has_a_section_on_faults_with_grid_hatching_and_unnoticed_faults() {
         triples: &[],
     });
     assert!(!without.contains("h-faults"));
+}
+
+#[test]
+fn the_page_of_one_result_has_the_section_of_a_run_and_nothing_else() {
+    let section = |page: &str| {
+        let start = page.find("<section id=\"faults\"").expect("a section");
+        let end = page[start..].find("</section>").expect("its end");
+        page[start..start + end].to_owned()
+    };
+    let studies = [Study::of_faults(drawn("gel", "tear", 4.0))];
+    let of_run = report(&ReportPage {
+        title: "worn",
+        studies: &studies,
+        pictures: &[],
+        triples: &[],
+    });
+    let page = fault_page(drawn("gel", "tear", 4.0));
+    assert_eq!(section(&page), section(&of_run));
+    assert_eq!(page.matches("<section ").count(), 1, "{page}");
+    assert!(page.contains("gel: errors with faults"), "{page}");
+}
+
+#[test]
+fn a_page_names_shown_differences_from_a_reference_model_alone() {
+    let mut beside = written("gel", "tear", 4.0);
+    let page =
+        |result: &Value| fault_page(FaultResult::read(&result.to_string()).expect("a result"));
+    beside["faults"][0]["difference"] = json!({"Fz": {"value": -0.2, "is_shown": true}});
+    let shown = page(&beside);
+    let words = "; it adds less error of Fz than to the reference model.";
+    assert!(shown.contains(words), "{shown}");
+    beside["faults"][0]["difference"]["Fz"]["is_shown"] = json!(false);
+    assert!(!page(&beside).contains("reference model"));
 }
 
 #[test]

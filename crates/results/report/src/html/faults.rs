@@ -1,14 +1,23 @@
-//! Section of a page on faults.
+//! Faults of sensors, as a section of a page and as a page.
 
 use std::collections::BTreeSet;
 
 use maud::{Markup, html};
 
-use super::drawn;
+use super::{Document, badge, drawn};
 use crate::faults::{FaultResult, FaultScores, NEVER};
 use crate::names::{listed, names};
 use crate::number::FormattedValue;
 use crate::results::Study;
+
+/// Page of one result of `taceva stress` as one HTML file: the section that the page of a run has.
+pub fn fault_page(result: FaultResult) -> String {
+    let studies = [Study::of_faults(result)];
+    let title = format!("{}: errors with faults", studies[0].sensor);
+    let mut document = Document::new(&title, badge(&studies));
+    document.section("faults", "Faults", section(&studies).unwrap_or_default());
+    document.finish()
+}
 
 /// Section with the faults of each sensor; `None` if no sensor was tested with faults.
 pub(super) fn section(studies: &[Study]) -> Option<Markup> {
@@ -39,7 +48,7 @@ fn entry(result: &FaultResult, name: &str, number: usize) -> Markup {
         (drawn(&figure))
         p { strong { (name) } ": mean degradation over all faults: " (means(result)) "." } "\n"
         @if let Some(words) = unnoticed(result) { p { (words) } "\n" }
-        ul { @for fault in result.scored() { li { (fault.id) ": " (skill_end(fault, result)) "." } "\n" } }
+        ul { @for fault in result.scored() { li { (fault.id) ": " (skill_end(fault, result)) (verdicts(fault, result)) "." } "\n" } }
         @for of in &result.failed { p.note { "Failed: " (of.fault) ": " (of.reason) "." } "\n" }
         @for words in own.chain(skipped) { p.note { (words) "." } "\n" }
         @for words in &result.notes { p.note { (words) } "\n" }
@@ -87,4 +96,24 @@ fn skill_end(fault: &FaultScores, result: &FaultResult) -> String {
         Some(format!("skill of {channel} {end}"))
     });
     ends.collect::<Vec<_>>().join(", ")
+}
+
+/// Main channels with a shown difference from the error that the fault adds to the reference model; empty if there is none.
+fn verdicts(fault: &FaultScores, result: &FaultResult) -> String {
+    let sides = [("less", true), ("more", false)].into_iter();
+    let words = sides.map(|(side, is_less)| {
+        let channels = result.main_channels().into_iter().filter(|channel| {
+            let known = fault.difference.get(*channel);
+            known.is_some_and(|of| of.is_shown && of.value.is_some_and(|of| (of < 0.0) == is_less))
+        });
+        let channels: Vec<String> = channels.map(str::to_owned).collect();
+        match channels.is_empty() {
+            true => String::new(),
+            false => format!(
+                "; it adds {side} error of {} than to the reference model",
+                listed(&channels)
+            ),
+        }
+    });
+    words.collect()
 }

@@ -5,6 +5,7 @@ use serde::Serialize;
 use taceva_core::Date;
 use taceva_results::{Provenance, Subject};
 
+use crate::difference::ErrorDifference;
 use crate::estimate::{Estimate, Undefined};
 use crate::report::ByChannel;
 use crate::wear::order::WearBy;
@@ -68,11 +69,12 @@ pub struct RecordingWear {
     /// Mean absolute errors.
     pub mae: ByChannel<Estimate>,
     /// Differences of the errors from the errors of the first recording; empty for the first recording.
-    pub differences: ByChannel<WearDifference>,
+    pub differences: ByChannel<ErrorDifference>,
     /// Origin of the numbers.
     pub provenance: Provenance,
 }
 
+<<<<<<< HEAD
 /// Difference of the error of a recording from the error of the first recording.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct WearDifference {
@@ -90,6 +92,8 @@ pub struct WearDifference {
     pub reason: Option<String>,
 }
 
+=======
+>>>>>>> faults2
 /// Growth of the error of one channel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ChannelWear {

@@ -50,6 +50,34 @@ fn a_model_has_the_relative_error_one_to_itself_and_the_inverse_to_another() {
 }
 
 #[test]
+fn a_fault_is_shown_to_add_more_error_to_a_model_than_to_one_of_small_weights() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (dataset, model) = unseen(folder.path());
+    let seen = record(&folder.path().join("other"), 3);
+    let settings = ["size=8x8", "difference=true", "strength=20"];
+    let weak = fitted(&seen, "ridge", &settings);
+    let there = relative(&dataset, &model, &weak);
+    let back = relative(&dataset, &weak, &model);
+    let of = |report: &StressReport| {
+        let all = report.faults[0].difference.as_ref().expect("stated");
+        all["Fz"].clone()
+    };
+    let (more, less) = (of(&there), of(&back));
+    assert!(more.is_shown && more.value > Some(0.0), "{more:?}");
+    assert_eq!(less.value, more.value.map(|value| -value));
+    assert_eq!((less.p, less.is_shown), (more.p, true));
+    // Twelve points have 4096 patterns of signs.
+    let p = more.p.expect("tested");
+    assert!((2.0 / 4096.0..=0.05).contains(&p), "{p}");
+
+    let same = relative(&dataset, &model, &model);
+    for (_, own) in same.faults[0].difference.iter().flatten() {
+        assert_eq!((own.value, own.p), (Some(0.0), Some(1.0)));
+        assert!(!own.is_shown);
+    }
+}
+
+#[test]
 fn a_constant_reference_is_not_moved_by_a_fault() {
     let folder = tempfile::tempdir().expect("a folder");
     let (dataset, model) = unseen(folder.path());
@@ -61,6 +89,11 @@ fn a_constant_reference_is_not_moved_by_a_fault() {
         for ratio in own.values() {
             assert_eq!(ratio.value, None);
             assert_eq!(ratio.reason, Some(Undefined::ReferenceUnmoved));
+        }
+        for difference in fault.difference.as_ref().expect("stated").values() {
+            assert!(!difference.is_shown && difference.p.is_none());
+            let reason = "the reference model has no skill even without a fault";
+            assert_eq!(difference.reason.as_deref(), Some(reason));
         }
     }
 }

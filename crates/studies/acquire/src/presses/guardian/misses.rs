@@ -119,11 +119,11 @@ mod tests {
     fn a_late_turn_states_policy_and_waiting_and_whose_remedy_it_is() {
         let mut misses = Misses::default();
         let kernel = note(&mut misses, turn(10.0, 84.0, 71.0)).expect("a line");
-        for words in ["84 ms", "(SCHED_OTHER)", "for 71 ms:", "chrt -f 10"] {
+        for words in ["84 ms", "(SCHED_OTHER)", "waited 71 ms for a processor", "chrt -f 10"] {
             assert!(kernel.contains(words), "{kernel}");
         }
         let program = note(&mut misses, turn(11.0, 84.0, 3.0)).expect("a line");
-        for words in ["for 3 ms only", "drivers of the rig"] {
+        for words in ["waited only 3 ms for a processor", "drivers of the rig"] {
             assert!(program.contains(words), "{program}");
         }
         // The advice is not to do what was done already.
@@ -146,7 +146,7 @@ mod tests {
         misses.stale(0.061, 20.0);
         assert_eq!(misses.settle(20.1), None, "the reader may still come");
         let line = misses.settle(20.3).expect("it did not");
-        assert!(line.contains("from 61 ms ago"), "{line}");
+        assert!(line.contains("is 61 ms old"), "{line}");
         assert_eq!(misses.settle(21.0), None, "it is counted once");
 
         // The reader was late: it ends its turn after the watcher found the reading stale, or before.
