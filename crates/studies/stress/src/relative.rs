@@ -15,14 +15,10 @@ use crate::report::{ByChannel, CleanScore, FaultReport, StressReport};
 use crate::setup::StressRequest;
 use crate::study::stress_beside;
 
-<<<<<<< HEAD
-/// Adds to `report` its errors relative to the errors of `reference`. [`stress_beside`](crate::stress_beside) made `report` of the same request.
-=======
 /// Greatest p value of a shown difference.
 const LEVEL: f64 = 0.05;
 
-/// Adds to `report` its errors relative to those of the model `reference`. [`stress_beside`](crate::stress_beside) made `report` of the same request.
->>>>>>> faults2
+/// Adds to `report` its errors relative to the errors of `reference`. [`stress_beside`](crate::stress_beside) made `report` of the same request.
 ///
 /// # Errors
 /// Errors of [`stress`](crate::stress()), and [`EvaluateError::Request`] if the reference model scores other samples.
@@ -161,11 +157,7 @@ fn ratio(own: &Excess<'_>, reference: &Excess<'_>) -> Estimate {
     Estimate::new(added / by, interval(added / by, &sizes, left_out))
 }
 
-<<<<<<< HEAD
-/// 95 % interval of `value` by the jackknife over clusters. `left_out` returns the value without a cluster. `sizes` has the number of all errors
-/// divided by the number of errors of each cluster.
-=======
-/// Error that a fault adds to the model less that which it adds to the reference model, by a paired sign-flip test over clusters.
+/// Error that a fault adds to the model minus the error that the fault adds to the reference model, by a paired sign-flip test over clusters.
 fn difference(own: &Excess<'_>, reference: &Excess<'_>, seed: u64) -> Result<Difference, String> {
     if own.cells.is_empty() {
         return Err(Undefined::NoSeverity.to_string());
@@ -195,9 +187,8 @@ fn out_of_reach(tested: &[Result<Difference, String>]) -> Option<String> {
     })
 }
 
-/// 95 % interval of `value` by the jackknife over clusters. `left_out` has the value without a cluster, and `sizes` the number of all errors divided by that of
-/// each cluster.
->>>>>>> faults2
+/// 95 % interval of `value` by the jackknife over clusters. `left_out` returns the value without a cluster. `sizes` has the number of all errors
+/// divided by the number of errors of each cluster.
 ///
 /// # Reference
 /// Busing, Meijer and van der Leeden, Delete-m jackknife for unequal m, Statistics and Computing 9 (1999).

@@ -74,26 +74,6 @@ pub struct RecordingWear {
     pub provenance: Provenance,
 }
 
-<<<<<<< HEAD
-/// Difference of the error of a recording from the error of the first recording.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct WearDifference {
-    /// The difference, in the unit of the channel; `None` if it is absent.
-    pub value: Option<f64>,
-    /// Both ends of its interval; `None` without an interval.
-    pub interval: Option<[f64; 2]>,
-    /// Confidence of the interval, more than 0.95 among several differences; `None` without an interval.
-    pub confidence: Option<f64>,
-    /// p value, adjusted for all differences of the gel; `None` without a test.
-    pub p: Option<f64>,
-    /// True if a difference is shown.
-    pub is_shown: bool,
-    /// Reason for an absent difference; `None` if the difference is known.
-    pub reason: Option<String>,
-}
-
-=======
->>>>>>> faults2
 /// Growth of the error of one channel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ChannelWear {
