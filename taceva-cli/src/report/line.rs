@@ -178,7 +178,8 @@ mod tests {
             ..Score::of_number("tolerance", channel, 0.5, Unit::One)
         };
         let scores = [of("Fz", 0.05), of("Pz", 0.05), of("Rx", 0.5)];
-        let differing = "tolerance: within 0.05 (Fz Pz) or 0.5 (Rx) of the truth, in the unit of the channel";
+        let differing =
+            "tolerance: within 0.05 (Fz Pz) or 0.5 (Rx) of the truth, in the unit of the channel";
         assert_eq!(limits(&scores), [differing]);
         let common = "tolerance: within 0.05 of the truth, in the unit of the channel";
         assert_eq!(limits(&scores[..2]), [common]);
