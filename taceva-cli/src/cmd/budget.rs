@@ -44,6 +44,12 @@ pub(crate) fn report(args: &Budget) -> anyhow::Result<BudgetReport> {
     let text = read(path)?;
     let place = || shown(path).to_string();
     let budget = BudgetText::parse(&text).with_context(place)?;
+    if !budget.has_source() {
+        anyhow::bail!(
+            "{}: no `[[source]]` in it, expected one or more; comments of a template say why a result measures none",
+            place()
+        );
+    }
     let budget = at(budget, args)?;
     let most = args.most.as_deref();
     let most = most.map(|written| amount("--most-U", written, &budget));

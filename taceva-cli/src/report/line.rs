@@ -69,17 +69,29 @@ pub(super) fn flags(scores: &[Score]) -> Vec<String> {
         .collect()
 }
 
-/// Parameters in the definitions of scores with a value: `tolerance: within 0.05 of the truth, in the unit of the channel`.
+/// Parameters in the definitions of scores with a value: `tolerance: within 0.05 of the truth, in the unit of the channel`. Different ones name their channels.
 pub(super) fn limits(scores: &[Score]) -> Vec<String> {
     let of = |metric: &str, parameter: &str| {
         let own = scores.iter().filter(|score| score.metric == metric);
         let own = own.filter(|score| score.value.number().is_some());
-        let limits = own.flat_map(|score| &score.parameters);
-        let limits = limits.filter(|(name, _)| name == parameter);
-        let mut limits: Vec<String> = limits.map(|(_, limit)| limit.to_string()).collect();
-        limits.sort();
-        limits.dedup();
-        (!limits.is_empty()).then(|| limits.join(" or "))
+        let mut limits: BTreeMap<String, Vec<&str>> = BTreeMap::new();
+        for score in own {
+            let of_it = score
+                .parameters
+                .iter()
+                .filter(|(name, _)| name == parameter);
+            for (_, limit) in of_it {
+                let channels = limits.entry(limit.to_string()).or_default();
+                channels.push(&score.channel);
+            }
+        }
+        let is_one = limits.len() == 1;
+        let words = limits.into_iter().map(|(limit, channels)| match is_one {
+            true => limit,
+            false => format!("{limit} ({})", channels.join(" ")),
+        });
+        let words: Vec<String> = words.collect();
+        (!words.is_empty()).then(|| words.join(" or "))
     };
     let within = of("tolerance", "tolerance");
     let within = within.map(|limit| format!("tolerance: within {limit} of the truth"));
@@ -158,6 +170,20 @@ mod tests {
     use taceva_results::{Value, Variant};
 
     use super::*;
+
+    #[test]
+    fn limits_that_differ_between_channels_name_them() {
+        let of = |channel: &str, limit: f64| Score {
+            parameters: vec![("tolerance".to_owned(), limit)],
+            ..Score::of_number("tolerance", channel, 0.5, Unit::One)
+        };
+        let scores = [of("Fz", 0.05), of("Pz", 0.05), of("Rx", 0.5)];
+        let differing =
+            "tolerance: within 0.05 (Fz Pz) or 0.5 (Rx) of the truth, in the unit of the channel";
+        assert_eq!(limits(&scores), [differing]);
+        let common = "tolerance: within 0.05 of the truth, in the unit of the channel";
+        assert_eq!(limits(&scores[..2]), [common]);
+    }
 
     #[test]
     fn an_undefined_score_is_read_without_its_variants() {

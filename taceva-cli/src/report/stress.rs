@@ -84,6 +84,10 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     });
     let clean: Vec<String> = clean.collect();
     notes.push(format!("Error without a fault: {}.", clean.join(", ")));
+    let skills = channels
+        .iter()
+        .filter_map(|name| Some((*name, report.clean.get(*name)?.skill)));
+    notes.extend(unshown_skill(report.samples, skills));
     let faults = report.faults.iter();
     notes.extend(faults.map(|fault| of_fault(report, fault, channels)));
     notes.extend(tests(report, channels));
@@ -113,8 +117,12 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     }));
     if report.untouched != "reference" {
         notes.push(format!(
-            "The recording has no untouched {inputs}; changes by faults and contact are measured from: {}.",
-            report.untouched
+            "The recording has no untouched {inputs}; changes by faults and contact are measured from: {}. {}.",
+            report.untouched,
+            match report.input {
+                "signals" => "`rest` under [signals] of a map names rows without contact",
+                _ => "`reference` under [frame] of a map names a picture without contact",
+            }
         ));
     }
     if report.left_out > 0 {
@@ -126,6 +134,26 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     notes.extend(report.notes.iter().cloned());
     notes.extend(report.not_measured.clone());
     notes
+}
+
+/// Remark on skill without a fault whose interval includes 0, although more tested samples may show it.
+fn unshown_skill<'a>(
+    samples: usize,
+    skills: impl Iterator<Item = (&'a str, Estimate)>,
+) -> Option<String> {
+    let unshown = skills.filter(|(_, skill)| {
+        let is_positive = skill.value.is_some_and(|value| value > 0.0);
+        is_positive && skill.is_above_zero() == Some(false)
+    });
+    let unshown = unshown.map(|(name, skill)| format!("{name} {}", phrase(&skill, "")));
+    let unshown: Vec<String> = unshown.collect();
+    (!unshown.is_empty()).then(|| {
+        format!(
+            "Skill without a fault is not shown by {}: {}. A larger test part narrows its interval: fit with shares such as --split 'random 40/10/50'.",
+            counted(samples, "sample"),
+            unshown.join(", ")
+        )
+    })
 }
 
 /// Remark on severities whose pictures change by less than half of the target, or more than twice the target; `None` without such severities.
@@ -371,4 +399,31 @@ pub(super) fn cell(of: &Estimate) -> Cell {
         formatted: formatted(of),
         ..taceva_report::Estimate::default()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_stress::Estimate;
+
+    use super::unshown_skill;
+
+    #[test]
+    fn a_wide_interval_of_skill_is_told_from_a_model_without_skill() {
+        let skill = |value: f64, ends: [f64; 2]| Estimate {
+            ci95: Some(ends),
+            ..Estimate::of_known(Some(value))
+        };
+        let skills = [
+            ("Fxy", skill(0.74, [-0.10, 0.94])),
+            ("Fz", skill(-0.5, [-1.0, 0.2])),
+            ("Pz", skill(0.77, [0.60, 0.86])),
+        ];
+        let said = unshown_skill(46, skills.into_iter()).unwrap();
+        assert!(
+            said.starts_with("Skill without a fault is not shown by 46 samples: Fxy 0.7"),
+            "{said}"
+        );
+        assert!(!said.contains("Fz ") && !said.contains("Pz "), "{said}");
+        assert_eq!(unshown_skill(46, skills.into_iter().skip(1)), None);
+    }
 }

@@ -88,6 +88,8 @@ fn the_end_of_skill_is_bounded_by_the_tested_severities_alone() {
     let said = bench
         .ok("stress unseen --model constant.taceva --faults dust --severity 2 --by parameter -q");
     assert!(said.contains("no skill even without the fault"), "{said}");
+    let remedy = "of a map names a picture without contact.";
+    assert!(said.contains(remedy), "{said}");
 }
 
 #[test]

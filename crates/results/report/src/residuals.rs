@@ -14,6 +14,9 @@ use taceva_results::Samples;
 /// assert!(found.between.u > found.within.u);
 /// let absent = taceva_report::residual_components(&samples, "Fz", "calibration", "scene");
 /// assert_eq!(absent.unwrap_err(), "the samples have no column `scene`");
+/// let bare = Samples::read("sample,Fz,Fz_predicted\n1,0.51,0.50\n")?;
+/// let absent = taceva_report::residual_components(&bare, "Fz", "calibration", "point_id");
+/// assert!(absent.unwrap_err().contains("under [ids] of the map"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -33,7 +36,11 @@ pub fn residual_components(
         ));
     };
     if !samples.has(column) {
-        return Err(format!("the samples have no column `{column}`"));
+        let remedy = match column {
+            "point_id" => ": name the contact points by `point_id` under [ids] of the map",
+            _ => "",
+        };
+        return Err(format!("the samples have no column `{column}`{remedy}"));
     }
     let mut residuals = Residuals::default();
     for row in samples.of_protocol(part) {

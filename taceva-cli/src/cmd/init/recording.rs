@@ -261,7 +261,7 @@ impl Place {
     fn question(&self) -> String {
         let subject = self.subject.as_deref();
         match (self.key.as_str(), subject) {
-            ("unit", Some(subject)) => format!("unit of {subject}, such as N, mN, gf, mm or um"),
+            ("unit", Some(subject)) => format!("unit of {subject}, such as {}", units(subject)),
             ("unit", None) => "unit of these times, such as s, ms, us or ns".to_owned(),
             ("from", Some(subject)) => {
                 format!("column with {subject}, or {LEFT_OUT} to leave it out")
@@ -273,6 +273,16 @@ impl Place {
             (key, Some(subject)) => format!("{key} of {subject}"),
             (key, None) => key.to_owned(),
         }
+    }
+}
+
+/// Common units of the quantity that the channel `subject` is, by its name.
+fn units(subject: &str) -> &'static str {
+    match subject {
+        "Px" | "Py" | "Pz" => "mm, um or m",
+        "Fx" | "Fy" | "Fz" => "N, mN or gf",
+        "Tx" | "Ty" | "Tz" => "Nm, mNm or Nmm",
+        _ => "N, Nm, mm, um or deg",
     }
 }
 
@@ -359,10 +369,9 @@ mod tests {
     fn an_open_place_says_its_key_and_its_channel() {
         let question = |line: &str| Place::of(line).map(|place| place.question());
         let unit = question("Fx = { from = \"ft[0]\", unit = \"?\" }   # a guess");
-        assert_eq!(
-            unit.as_deref(),
-            Some("unit of Fx, such as N, mN, gf, mm or um")
-        );
+        assert_eq!(unit.as_deref(), Some("unit of Fx, such as N, mN or gf"));
+        let unit = question("Tx = { from = \"ft[3]\", unit = \"?\" }");
+        assert_eq!(unit.as_deref(), Some("unit of Tx, such as Nm, mNm or Nmm"));
         let from = question("Fz = { from = \"?\", unit = \"?\" }   # a, b match equally");
         let asked = "column with Fz, or none to leave it out";
         assert_eq!(from.as_deref(), Some(asked));

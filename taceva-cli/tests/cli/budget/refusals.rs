@@ -156,6 +156,17 @@ fn sources_without_an_uncertainty_have_none_and_divide_nothing() {
     assert_eq!(budget["U"], 0.0);
 }
 
+#[test]
+fn a_file_without_a_source_has_no_uncertainty_of_zero() {
+    let bench = Bench::new();
+    bench.write("budget.toml", &of_force(""));
+    bench.refused(
+        "budget budget.toml",
+        3,
+        "budget.toml: no `[[source]]` in it, expected one or more",
+    );
+}
+
 pub(super) const CERTIFICATE: &str = r#"number = "D-K-1"
 laboratory = "a laboratory"
 issued = 2026-05-12

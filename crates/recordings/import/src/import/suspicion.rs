@@ -37,9 +37,16 @@ impl fmt::Display for Suspicion {
         } else {
             "typically"
         };
+        // A robot counts positions from its base.
+        let origin = match (self.code, self.unit) {
+            ("magnitude-large", Unit::Millimetre) => {
+                ", or do they count from an origin outside the gel"
+            }
+            _ => "",
+        };
         write!(
             f,
-            "{}: `{}` is {which} {} {}, unusual for a gel; are the numbers in {}?",
+            "{}: `{}` is {which} {} {}, unusual for a gel; are the numbers in {}{origin}?",
             self.code, self.channel, self.magnitude, self.unit, self.perhaps
         )
     }
@@ -254,6 +261,18 @@ mod tests {
             "one large one is no unit"
         );
         assert_eq!(perhaps(&Channel::FZ, "gf", [50.0, 120.0, 310.0]), None);
+    }
+
+    #[test]
+    fn large_positions_may_count_from_another_origin_and_forces_do_not() {
+        let said = |channel: &Channel, values: [f64; 3]| {
+            magnitude_suspicion(channel, values).map(|suspicion| suspicion.to_string())
+        };
+        let origin = "count from an origin outside the gel?";
+        let place = said(&Channel::PX, [300.0, 301.5, 303.0]).expect("no gel is so wide");
+        assert!(place.ends_with(origin), "{place}");
+        let force = said(&Channel::FZ, [900.0, 2_000.0, 4_100.0]).expect("no press is so hard");
+        assert!(!force.contains(origin), "{force}");
     }
 
     #[test]

@@ -157,6 +157,11 @@ impl BudgetText {
         BudgetText { at, ..self }
     }
 
+    /// True if the file has a source.
+    pub fn has_source(&self) -> bool {
+        !self.written.source.is_empty()
+    }
+
     /// Measured figures that sources use by `from`, in the order of the file.
     pub fn figures(&self) -> impl Iterator<Item = &str> {
         let named = self.written.source.iter();

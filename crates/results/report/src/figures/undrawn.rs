@@ -28,7 +28,7 @@ const NEEDS: [(&str, &str, &str); 15] = [
     (
         "depth",
         "r_spatial",
-        "`r_spatial` over the depth: labels of Pz",
+        "`r_spatial` over the depth: labels of Px, Py and Pz",
     ),
     (
         "resolution",
