@@ -380,3 +380,12 @@ fn widths_sizes_prices_and_sellers_are_bounds_and_what_is_unknown_is_open() {
     let open = built.open.iter().find(|open| open.name == "R-Tac0");
     assert!(open.expect("it is built").reason.contains("needs a seller"));
 }
+
+#[test]
+fn published_errors_state_the_greatest_tested_depth_and_force() {
+    let text = chosen("force error <= 0.1 N").table().text();
+    let tested = "GelSight 1 mm, 1.83 N; GelSightWM 1 mm, 1.83 N; ";
+    assert!(text.contains(tested), "{text}");
+    let text = chosen("rate >= 1 Hz").table().text();
+    assert!(!text.contains("Published errors"), "{text}");
+}
