@@ -161,8 +161,17 @@ impl Choice {
                 errors.join("; ")
             ));
         }
+        let is_named = |step: &Step| {
+            use Property::{Price, Size, Width};
+            matches!(step.property, Size | Width | Price(_))
+        };
+        let steps = all().flat_map(|candidate| &candidate.steps);
+        let steps = steps.filter(|step| !is_error(step) && !is_named(step));
+        let variants =
+            steps.filter_map(|step| Some(format!("{}: {}.", step.property, step.part.as_ref()?)));
+        table.note_all(taceva_core::distinct(variants));
         for candidate in &self.ranked {
-            for step in candidate.steps.iter().filter(|step| !is_error(step)) {
+            for step in candidate.steps.iter().filter(|step| is_named(step)) {
                 if let Some(part) = &step.part {
                     table.note(format!("{}, {}: {part}.", candidate.name, step.property));
                 }

@@ -222,6 +222,10 @@ fn the_depth_is_chosen_by_the_excess_of_the_variation_between_places() {
         let ranked = choice.ranked.iter();
         let names: Vec<&str> = ranked.map(|one| one.name.as_str()).collect();
         assert_eq!(names.len(), 2, "{choice:?}");
+        let mut variants = studies[0].scores.iter().flat_map(|score| &score.variants);
+        let named = "spatial robustness of Pz: the variant excess, which verdicts use.";
+        let text = choice.table().text();
+        assert_eq!(text.contains(named), variants.next().is_some(), "{text}");
         let spatial = choice.ranked[0].steps.last().and_then(|step| step.value);
         (names[0].to_owned(), spatial)
     };
