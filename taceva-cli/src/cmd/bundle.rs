@@ -3,8 +3,8 @@
 use std::num::NonZeroUsize;
 
 use taceva_bundle::{
-    BundleError, BundleRequest, Outcome, ScoredTables, Verification, VerifyRequest, compare, make,
-    verify_with,
+    BundleError, BundleRequest, Level, Outcome, ScoredTables, Verification, VerifyRequest, compare,
+    make, verify_with,
 };
 use taceva_core::{Progress, counted, shown};
 
@@ -65,6 +65,12 @@ fn made(args: &BundleMake, context: &Context) -> anyhow::Result<u8> {
         )?;
         report::bundle::levels(&manifest.claims, stream)
     })?;
+    let mut claims = manifest.claims.iter();
+    if args.states.is_empty() && claims.all(|claim| claim.level <= Level::Form) {
+        context.say(format_args!(
+            "no claim can be computed again without a state: add --state STATE (written by --state-out), or pack the folder of a run"
+        ));
+    }
     Ok(exit::DONE)
 }
 

@@ -27,6 +27,7 @@ pub use offer::{Availability, Goods, Price, Way};
 pub use published::{Missing, Published, Roughly, Source};
 pub use question::Question;
 pub use read::CatalogueError;
+pub(crate) use study::RESULT;
 pub use union::{joined, named_among};
 
 /// Built-in sensors and studies, by name.

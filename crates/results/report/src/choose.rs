@@ -2,7 +2,9 @@
 
 mod evidence;
 mod faults;
+mod inexact;
 mod need;
+mod need_error;
 mod other;
 mod place;
 mod property;
@@ -13,7 +15,8 @@ mod values;
 mod words;
 
 pub use evidence::{Evidence, choose_results};
-pub use need::{Bound, Need, NeedError};
+pub use need::{Bound, Need};
+pub use need_error::NeedError;
 pub use property::Property;
 pub use render::CHOICE_SCHEMA;
 
@@ -77,13 +80,15 @@ pub struct Step {
     pub property: Property,
     /// Number that the need uses; `None` if unknown.
     pub value: Option<f64>,
+    /// Inexact number that decides a hard need, such as `> 1000 USD`; `None` if an exact number is known or if the need stays open.
+    pub inexact: Option<String>,
     /// 95 % confidence interval; `None` if unknown.
     pub interval: Option<[f64; 2]>,
     /// Standing of the number.
     pub standing: Standing,
     /// Ratio to the best of the remaining sensors; `None` for hard needs and unknown numbers.
     pub share: Option<f64>,
-    /// Measured part for sizes, goods for prices; `None` for other properties.
+    /// Measured part for sizes, goods for prices, greatest tested depth and force for published errors; `None` for other properties.
     pub part: Option<String>,
     /// True for a hard need, which does not affect the rank.
     pub is_bound: bool,
@@ -137,7 +142,8 @@ fn choose_together(
     let mut remaining: Vec<&Sensor> = Vec::new();
     for sensor in sensors.iter().filter(|entry| entry.kind == Kind::Sensor) {
         let mut properties = needs.iter().flat_map(Need::properties);
-        if !properties.any(|property| property.of(sensor).is_some()) {
+        let is_known = properties.any(|property| property.of(sensor).is_some());
+        if !is_known && !reasons::is_decided(sensor, needs) {
             match by_other_definition(sensor, needs) {
                 Some(reason) => choice.other_definitions.push(Dropped::new(sensor, reason)),
                 None => choice.unknown.push(sensor.name.clone()),
@@ -216,6 +222,7 @@ fn candidate(sensor: &Sensor, remaining: &[&Sensor], needs: &[Need]) -> Candidat
                 need: need.words.clone(),
                 property: bound.property,
                 value: bound.property.of(sensor),
+                inexact: inexact::decided(sensor, bound).map(|decided| decided.shown),
                 interval: bound.property.interval(sensor),
                 standing: bound.property.standing(sensor),
                 share: None,
@@ -237,6 +244,7 @@ fn candidate(sensor: &Sensor, remaining: &[&Sensor], needs: &[Need]) -> Candidat
                 need: need.words.clone(),
                 property: *property,
                 value,
+                inexact: None,
                 interval: property.interval(sensor),
                 standing: property.standing(sensor),
                 share,

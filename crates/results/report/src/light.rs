@@ -64,23 +64,23 @@ impl Light {
         ))
     }
 
-    /// Remark on nearly constant light: `light changed by 0.0089 % to 10.1 %: stimulus hardly changed`. `None` if the score lacks this flag.
+    /// Remark on nearly constant light: `light changed by 0.0089 % to 10.1 %: stimulus hardly changed in at least one scene`. `None` if the score lacks this flag.
     pub(crate) fn low_stimulus(&self) -> Option<String> {
         if !self.is_low {
             return None;
         }
         let changes = self.scenes.iter().filter_map(|of| of.light);
         let changes = changes.map(|light| 100.0 * (light - 1.0).abs());
+        let hardly = Standing::LowStimulus.phrase().unwrap_or_default();
         let said = crate::figure::extent(changes).map(|[low, high]| match range(low, high) {
-            one if !one.contains(' ') => format!("light changed by {one} %: "),
+            one if !one.contains(' ') => format!("light changed by {one} %: {hardly}"),
             _ => format!(
-                "light changed by {} % to {} %: ",
+                "light changed by {} % to {} %: {hardly} in at least one scene",
                 numeral(low),
                 numeral(high)
             ),
         });
-        let hardly = Standing::LowStimulus.phrase().unwrap_or_default();
-        Some(format!("{}{hardly}", said.unwrap_or_default()))
+        Some(said.unwrap_or_else(|| hardly.to_owned()))
     }
 }
 
@@ -146,7 +146,7 @@ mod tests {
             &[[0.99991, 1.25], [1.1, 20.0]],
             r#", "flags": ["low stimulus"]"#,
         );
-        let expected = "x: errors of unbounded predictions become 1.25 to 20 times as large in the lit scenes; light changed by 0.009 % to 10 %: stimulus hardly changed.";
+        let expected = "x: errors of unbounded predictions become 1.25 to 20 times as large in the lit scenes; light changed by 0.009 % to 10 %: stimulus hardly changed in at least one scene.";
         assert_eq!(said(dim), expected);
     }
 

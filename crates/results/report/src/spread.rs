@@ -25,8 +25,8 @@ const CALIBRATION: &str = "calibration";
 /// Ratio of spreads above which a difference is reported.
 const ALIKE: f64 = 2.0;
 
-/// Remark on the labels of the studies at `which`: ` (their labels differ in spread: ViTacTip 0.047 N to GelSightWM 0.174 N)`. Empty if label spreads differ by
-/// at most a factor of two.
+/// Remark on the labels of the studies at `which`: ` (their labels differ in spread: ViTacTip 0.047 N to GelSightWM 0.174 N)`, and on another order by R². Empty
+/// if label spreads differ by at most a factor of two.
 pub(crate) fn words(
     studies: &[Study],
     names: &[String],
@@ -35,9 +35,41 @@ pub(crate) fn words(
     channel: &str,
 ) -> String {
     match range(studies, names, which, metric, channel) {
-        Some((labels, range)) => format!(" (their {labels} differ in spread: {range})"),
+        Some((labels, range)) => {
+            let other = other_order(studies, names, which, metric, channel);
+            let other = other.unwrap_or_default();
+            format!(" (their {labels} differ in spread: {range}){other}")
+        }
         None => String::new(),
     }
+}
+
+/// Remark that the greatest R² belongs to a study with a larger error than others; `None` if both orders begin alike, or for scores other than MAE and RMSE.
+fn other_order(
+    studies: &[Study],
+    names: &[String],
+    which: &[usize],
+    metric: &str,
+    channel: &str,
+) -> Option<String> {
+    if !matches!(metric, "mae" | "rmse") {
+        return None;
+    }
+    let number = |at: usize, metric: &str| studies.get(at)?.score(metric, channel)?.value.number();
+    let known = which.iter().filter_map(|at| {
+        let error = number(*at, metric)?;
+        Some((*at, error, number(*at, "r2")?))
+    });
+    let known: Vec<(usize, f64, f64)> = known.collect();
+    let (at, error, r2) = *known
+        .iter()
+        .max_by(|one, other| one.2.total_cmp(&other.2))?;
+    let is_larger = known.iter().any(|(_, of_other, _)| *of_other < error);
+    let name = names.get(at).filter(|_| is_larger)?;
+    Some(format!(
+        "; relative to this spread, {name} has the best value: r2 {}",
+        numeral(r2)
+    ))
 }
 
 /// Note below a table on the `scores` (metric and channel) whose labels have different spreads; `None` without such scores.
@@ -191,6 +223,21 @@ mod tests {
         let note = note(&studies, &names, &[("mae", "Fxy")]).expect("a note");
         let differ = "(mae Fxy: a 0.04 N to b 0.17 N)";
         assert!(note.contains(differ), "{note}");
+    }
+
+    #[test]
+    fn the_best_r2_of_a_sensor_with_a_larger_error_is_said_beside_the_spread() {
+        let mut studies = [study(0.012, 0.36), study(0.136, 0.91)];
+        let names = ["a", "b"].map(str::to_owned);
+        let said = |studies: &[Study]| words(studies, &names, &[0, 1], "mae", "Fxy");
+        assert!(said(&studies).ends_with("N)"), "{}", said(&studies));
+        for score in &mut studies[0].scores {
+            if score.metric == "mae" {
+                score.value = taceva_results::Value::Number(0.005);
+            }
+        }
+        let expected = "; relative to this spread, b has the best value: r2 0.91";
+        assert!(said(&studies).contains(expected), "{}", said(&studies));
     }
 
     #[test]

@@ -50,6 +50,17 @@ fn an_evaluation_is_verified_by_its_samples_as_far_as_they_hold_what_metrics_rea
 }
 
 #[test]
+fn an_evaluation_without_its_state_names_the_state_that_others_need() {
+    let bench = Bench::new();
+    bench.record("data", 20);
+    bench.ok("evaluate data --model ridge --set size=20x20 --split random --no-cache --format json --out r.json --samples-out r.samples.csv -q");
+    let ran = bench.run("bundle r.json --draft --out b");
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(ran.out.contains("level    form: "), "{}", ran.out);
+    assert!(ran.err.contains("add --state STATE"), "{}", ran.err);
+}
+
+#[test]
 fn a_run_is_verified_by_its_samples_phase_by_phase() {
     let bench = run();
     bench.ok("bundle run --draft --out b.tar.gz -q");

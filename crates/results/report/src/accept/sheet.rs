@@ -80,6 +80,7 @@ impl Acceptance<'_> {
         if let Some(line) = self.study.traceability() {
             table.note(line.to_owned());
         }
+        table.note_all(self.variant_notes());
         let notes = self.edits_note().into_iter().chain(self.rule_notes());
         table.note_all(notes.chain(process::notes(self.findings)));
         let trainings = self.findings.iter().map(|finding| finding.trainings);

@@ -9,7 +9,7 @@ use crate::escape::{terminal, toml_string};
 use crate::number::{FormattedValue, spaced};
 use crate::results::Study;
 use crate::scores::ScoreTable;
-use taceva_results::{Score, not_measured};
+use taceva_results::{Score, full_name, not_measured};
 
 /// Distance of a limit from the result, as a share of the value.
 const MARGIN: f64 = 0.2;
@@ -150,7 +150,7 @@ fn limit(study: &Study, score: &Score) -> Option<String> {
         "\n# result: {}, n = {}\n[[limit]]\nmetric = {}\nchannel = {}\nunit = {}\n{}{rule}",
         line(&found),
         score.n,
-        toml_string(&score.metric),
+        toml_string(&full_name(&score.metric, variant)),
         toml_string(&score.channel),
         toml_string(score.unit.symbol()),
         bounds.lines(),

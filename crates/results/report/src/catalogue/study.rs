@@ -12,6 +12,9 @@ use super::published::Published;
 use crate::results::{Fact, Made, PUBLISHED, Statement, Study, by_published_r2};
 use taceva_results::{Interval, Score};
 
+/// Source of a number that is read from a result.
+pub(crate) const RESULT: &str = "result";
+
 impl Sensor {
     /// Converts results to a sensor for `choose`: their numbers, and opacity if the results state it. Limits come from the catalogue sensor of the same name;
     /// without such a sensor, and for simulated sensors, limits are unknown.
@@ -24,7 +27,7 @@ impl Sensor {
                 channel: score.channel.clone(),
                 value: score.value.number()?,
                 unit: score.unit.symbol().to_owned(),
-                source: "result".to_owned(),
+                source: RESULT.to_owned(),
                 read_from: study.source.clone(),
                 conditions: "see its provenance".to_owned(),
                 definition: score.definition.clone(),

@@ -3,6 +3,7 @@
 use std::fmt;
 use taceva_core::shown;
 
+use super::need_error::NeedError;
 use super::property::Property;
 use super::words::{CURRENCIES, OTHER_UNITS, QUANTITIES, Quantity, WORDS};
 
@@ -26,49 +27,6 @@ pub struct Bound {
     pub is_least: bool,
     /// Bound, in the unit of the property.
     pub value: f64,
-}
-
-/// Error while parsing needs.
-#[derive(Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum NeedError {
-    /// No need is given.
-    #[error(
-        "no need is given: expected words such as `shear` or numbers such as `rate >= 50 Hz`, separated by commas"
-    )]
-    Empty,
-    /// Unknown word.
-    #[error("`{0}`: unknown need, expected one of {known}", known = known())]
-    Unknown(String),
-    /// A number or its unit is invalid.
-    #[error("`{words}`: expected a number above 0{units}, such as `{example}`")]
-    Number {
-        /// Need as written.
-        words: String,
-        /// Expected units, as text.
-        units: String,
-        /// Example of the need with a valid number.
-        example: String,
-    },
-    /// A strict sign, `<` or `>`, which excludes its number.
-    #[error("`{words}`: a bound includes its number; write `{instead}`")]
-    Strict {
-        /// Need as written.
-        words: String,
-        /// The same need with an accepted sign, `<=` or `>=`.
-        instead: String,
-    },
-    /// A price without a bound, which cannot rank sensors.
-    #[error(
-        "`{0}`: prices are not ranked; bound the price of a ready sensor, such as `price <= 500 USD`"
-    )]
-    Price(String),
-    /// Several needs are wrong.
-    #[error("{}", all(.0))]
-    Several(Vec<NeedError>),
-    /// The file is not TOML of the form `needs = ["…", …]`.
-    #[error("needs: {0}")]
-    Toml(#[from] toml::de::Error),
 }
 
 impl Need {
@@ -150,6 +108,9 @@ impl Need {
 /// Words for a price.
 const PRICES: [&str; 4] = ["affordable", "cheap", "cost", "inexpensive"];
 
+/// Words for robustness to faults.
+const FAULTS: [&str; 5] = ["dirt", "durable", "dust", "robust", "scratch"];
+
 fn one(words: &str) -> Result<Need, NeedError> {
     let lower = words.to_lowercase();
     if let Some(word) = WORDS
@@ -170,6 +131,9 @@ fn one(words: &str) -> Result<Need, NeedError> {
     if PRICES.iter().any(|price| lower.starts_with(price)) {
         return Err(NeedError::Price(shown(words).to_string()));
     }
+    if FAULTS.iter().any(|fault| lower.contains(fault)) {
+        return Err(NeedError::Fault(shown(words).to_string()));
+    }
     // Longest name first, because `depth error` contains `depth`.
     let named = QUANTITIES
         .iter()
@@ -189,7 +153,11 @@ fn bound(quantity: &Quantity, words: &str, rest: &str) -> Result<Bound, NeedErro
     let refuse = || NeedError::Number {
         words: shown(words).to_string(),
         units: quantity.units(),
-        example: quantity.example(),
+        example: match rest.contains(" at ") {
+            // A load is a need of its own.
+            true => format!("{}, force >= 5 N", quantity.example()),
+            false => quantity.example(),
+        },
     };
     let rest = rest.trim();
     for sign in ["<", ">"] {
@@ -264,40 +232,6 @@ impl fmt::Display for Bound {
     }
 }
 
-/// Text of several errors, with one list of the known needs.
-fn all(errors: &[NeedError]) -> String {
-    let is_unknown = |error: &&NeedError| matches!(error, NeedError::Unknown(_));
-    let others = errors.iter().filter(|error| !is_unknown(error));
-    let mut sentences: Vec<String> = others.map(NeedError::to_string).collect();
-    let unknown = errors.iter().filter_map(|error| match error {
-        NeedError::Unknown(words) => Some(format!("`{words}`")),
-        _ => None,
-    });
-    let unknown: Vec<String> = unknown.collect();
-    if !unknown.is_empty() {
-        let names = unknown.join(", ");
-        sentences.push(format!(
-            "{names}: unknown need, expected one of {}",
-            known()
-        ));
-    }
-    sentences.join("; ")
-}
-
-/// All needs with their synonyms: `shear (or accurate shear, shear force), no shear, …`.
-fn known() -> String {
-    let words = WORDS.iter().map(|word| match word.names {
-        [name, synonyms @ ..] if !synonyms.is_empty() => {
-            format!("{name} (or {})", synonyms.join(", "))
-        }
-        names => names.join(", "),
-    });
-    let quantities = QUANTITIES
-        .iter()
-        .map(|quantity| quantity.written("<number>"));
-    words.chain(quantities).collect::<Vec<_>>().join(", ")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -348,6 +282,11 @@ mod tests {
             said("uniformity high"),
             "`uniformity high`: expected a number above 0, such as `uniformity >= 0.9`"
         );
+        assert_eq!(
+            said("force error <= 0.1 N at 5 N"),
+            "`force error <= 0.1 N at 5 N`: expected a number above 0 and the unit N, such as `force error <= 1 N, force >= 5 N`"
+        );
+        assert!(said("robust to dust").starts_with("`robust to dust`: expected `rugged`"));
         assert!(said("cheap").starts_with("`cheap`: prices are not ranked"));
         assert_eq!(
             said("force error < 0.1 N"),

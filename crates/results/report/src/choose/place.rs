@@ -78,6 +78,7 @@ mod tests {
                 need: "even surface".to_owned(),
                 property: Property::Uniformity,
                 value: Some(*share),
+                inexact: None,
                 interval: None,
                 standing: Standing::Counts,
                 share: (!is_bound).then_some(*share),

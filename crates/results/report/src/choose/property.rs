@@ -4,7 +4,7 @@ use std::fmt;
 
 use taceva_metrics::{Better, Standing};
 
-use crate::catalogue::Sensor;
+use crate::catalogue::{RESULT, Sensor};
 use crate::number::FormattedValue;
 
 /// Property of a sensor to which needs refer.
@@ -150,9 +150,20 @@ impl Property {
         result.map_or(Standing::Counts, |result| result.standing)
     }
 
-    /// Measured part for a size, goods for a price; `None` for other properties.
+    /// Measured part for a size, goods for a price, tested presses for a published error, the variant behind a result; `None` for other properties.
     pub(super) fn part(self, sensor: &Sensor) -> Option<String> {
         match self {
+            Property::Repeatability(_) | Property::Spatial(_) | Property::Uniformity => {
+                let (metric, channel) = self.score()?;
+                let result = sensor.result(metric, channel)?;
+                result.note.clone().filter(|_| result.source == RESULT)
+            }
+            Property::Error(channel) => {
+                let limits = sensor.limits.as_ref()?;
+                let error = sensor.result("mae", channel)?;
+                let [depth, force] = [limits.pz_max_mm, limits.fz_max_n];
+                (error.source == limits.source).then(|| format!("{depth} mm, {force} N"))
+            }
             Property::Size | Property::Width => {
                 let size = sensor.size.as_ref()?;
                 Some(format!("{} mm, {}", size.shown(), size.conditions))

@@ -1,5 +1,6 @@
 //! Reasons why a sensor has no rank: every need that it does not meet, and every unknown number.
 
+use super::inexact::decided;
 use super::{Bound, Need, Property};
 use crate::catalogue::Sensor;
 use crate::names::listed;
@@ -16,10 +17,18 @@ pub(super) fn barred(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     barred.next()
 }
 
-/// True if the number of `sensor` is known and does not meet `bound`. A greatest tested depth or force need not be a limit.
+/// True if the number of `sensor` is known and does not meet `bound`, or if no value that its inexact number allows does. A greatest tested depth or force need
+/// not be a limit.
 pub(super) fn is_unmet(sensor: &Sensor, bound: &Bound) -> bool {
-    let value = bound.property.of(sensor);
-    !bound.property.is_reached() && value.is_some_and(|value| !bound.holds(value))
+    match bound.property.of(sensor) {
+        Some(value) => !bound.property.is_reached() && !bound.holds(value),
+        None => decided(sensor, bound).is_some_and(|decided| !decided.is_met),
+    }
+}
+
+/// True if an inexact number of `sensor` decides a hard need.
+pub(super) fn is_decided(sensor: &Sensor, needs: &[Need]) -> bool {
+    bounds(needs).any(|(_, bound)| decided(sensor, bound).is_some())
 }
 
 /// Hard needs that `sensor` does not meet, each with the number.
@@ -27,7 +36,10 @@ pub(super) fn unmet(sensor: &Sensor, needs: &[Need]) -> Vec<String> {
     let failed = bounds(needs).filter(|(_, bound)| is_unmet(sensor, bound));
     let reasons = failed.filter_map(|(need, bound)| {
         let property = bound.property;
-        let value = property.shown(property.of(sensor)?);
+        let value = match property.of(sensor) {
+            Some(value) => property.shown(value),
+            None => decided(sensor, bound)?.shown,
+        };
         let ends = property.interval(sensor);
         let is_unsure = ends.is_some_and(|ends| ends.into_iter().any(|end| bound.holds(end)));
         let unsure = match is_unsure {
@@ -47,6 +59,7 @@ pub(super) fn unproven(sensor: &Sensor, needs: &[Need]) -> Vec<String> {
     let unproven = bounds(needs).filter_map(|(need, bound)| {
         let property = bound.property;
         let reason = match property.of(sensor) {
+            None if decided(sensor, bound).is_some() => return None,
             None if property == Property::Opaque => {
                 let words = &need.words;
                 return Some(format!("`{words}` needs {CLOSED}, which is unknown"));

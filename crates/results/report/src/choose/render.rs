@@ -16,8 +16,8 @@ use crate::table::{Column, Direction, Table};
 /// place and tie of each ranked sensor. 1.4: intervals, and significant differences. 1.5: sensors with limits from the catalogue. 1.6: `unplaced`
 /// lists sensors without a number for a ranking need. 1.7: `other_definitions` lists sensors with numbers of another definition only, and each step
 /// names the part or the goods of its number. 1.8: `apart` lists sensors that were measured on other samples
-/// or with other faults.
-pub const CHOICE_SCHEMA: &str = "taceva.choice/1.8";
+/// or with other faults. 1.9: an inexact number that decides a hard need.
+pub const CHOICE_SCHEMA: &str = "taceva.choice/1.9";
 
 /// Greatest number of names in a sentence.
 const SHOWN: usize = 6;
@@ -148,8 +148,30 @@ impl Choice {
     /// Notes on the measured parts and the goods behind sizes and prices of ranked sensors.
     fn note_parts(&self, table: &mut Table) {
         let all = || self.ranked.iter().chain(&self.others);
+        let is_error = |step: &Step| matches!(step.property, Property::Error(_));
+        let errors = all().filter_map(|candidate| {
+            let mut steps = candidate.steps.iter().filter(|step| is_error(step));
+            let tested = steps.find_map(|step| step.part.as_ref())?;
+            Some(format!("{} {tested}", candidate.name))
+        });
+        let errors: Vec<String> = errors.collect();
+        if !errors.is_empty() {
+            table.note(format!(
+                "Published errors are means over presses up to these depths and forces, and state nothing beyond: {}.",
+                errors.join("; ")
+            ));
+        }
+        let is_named = |step: &Step| {
+            use Property::{Price, Size, Width};
+            matches!(step.property, Size | Width | Price(_))
+        };
+        let steps = all().flat_map(|candidate| &candidate.steps);
+        let steps = steps.filter(|step| !is_error(step) && !is_named(step));
+        let variants =
+            steps.filter_map(|step| Some(format!("{}: {}.", step.property, step.part.as_ref()?)));
+        table.note_all(taceva_core::distinct(variants));
         for candidate in &self.ranked {
-            for step in &candidate.steps {
+            for step in candidate.steps.iter().filter(|step| is_named(step)) {
                 if let Some(part) = &step.part {
                     table.note(format!("{}, {}: {part}.", candidate.name, step.property));
                 }
@@ -157,7 +179,7 @@ impl Choice {
         }
         let mut steps = all().flat_map(|candidate| &candidate.steps);
         if steps.any(|step| matches!(step.property, Property::Price(_))) {
-            table.note("Prices are in the currency of their source and not converted. Only exact prices of ready sensors meet a bound.");
+            table.note("Prices are in the currency of their source and not converted. Only prices of ready sensors are compared with a bound.");
         }
         let currencies = self.other_currencies.iter();
         let currencies: Vec<String> = currencies
@@ -232,6 +254,7 @@ impl Choice {
                 "looked_at": step.property.to_string(),
                 "better": step.property.better().name(),
                 "value": step.value,
+                "inexact": step.inexact,
                 "unit": step.property.unit(),
                 "ci95": step.interval,
                 "standing": step.standing.words(),
@@ -280,10 +303,10 @@ fn first(names: &[String]) -> String {
 }
 
 fn shown(step: &Step) -> String {
-    let number = step.value.map_or_else(
-        || "not known".to_owned(),
-        |value| step.property.shown(value),
-    );
+    let inexact = step.inexact.as_deref().unwrap_or("not known");
+    let number = step
+        .value
+        .map_or_else(|| inexact.to_owned(), |value| step.property.shown(value));
     match step.standing.phrase().filter(|_| step.value.is_some()) {
         Some(words) => format!("{number}, {words}"),
         None => number,

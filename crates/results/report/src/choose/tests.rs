@@ -222,6 +222,10 @@ fn the_depth_is_chosen_by_the_excess_of_the_variation_between_places() {
         let ranked = choice.ranked.iter();
         let names: Vec<&str> = ranked.map(|one| one.name.as_str()).collect();
         assert_eq!(names.len(), 2, "{choice:?}");
+        let mut variants = studies[0].scores.iter().flat_map(|score| &score.variants);
+        let named = "spatial robustness of Pz: the variant excess, which verdicts use.";
+        let text = choice.table().text();
+        assert_eq!(text.contains(named), variants.next().is_some(), "{text}");
         let spatial = choice.ranked[0].steps.last().and_then(|step| step.value);
         (names[0].to_owned(), spatial)
     };
@@ -379,4 +383,13 @@ fn widths_sizes_prices_and_sellers_are_bounds_and_what_is_unknown_is_open() {
     let built = chosen("bought, price <= 600 USD, width <= 50 mm");
     let open = built.open.iter().find(|open| open.name == "R-Tac0");
     assert!(open.expect("it is built").reason.contains("needs a seller"));
+}
+
+#[test]
+fn published_errors_state_the_greatest_tested_depth_and_force() {
+    let text = chosen("force error <= 0.1 N").table().text();
+    let tested = "GelSight 1 mm, 1.83 N; GelSightWM 1 mm, 1.83 N; ";
+    assert!(text.contains(tested), "{text}");
+    let text = chosen("rate >= 1 Hz").table().text();
+    assert!(!text.contains("Published errors"), "{text}");
 }

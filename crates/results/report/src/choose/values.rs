@@ -97,10 +97,11 @@ fn mark(step: &Step) -> &'static str {
     step.value.map_or("", |_| sign(step.standing))
 }
 
-/// Number with its interval: `0.0361 N† (0.034 … 0.038)`, or `unknown`.
+/// Number with its interval: `0.0361 N† (0.034 … 0.038)`, an inexact number that decides a need, or `unknown`.
 fn cell(step: &Step, mark: &str) -> String {
     let Some(value) = step.value else {
-        return "unknown".to_owned();
+        let inexact = step.inexact.as_deref();
+        return inexact.unwrap_or("unknown").to_owned();
     };
     let value = step.property.shown(value);
     match step.interval {

@@ -1,6 +1,6 @@
 //! Rows of a data sheet: limits with findings, and the uncertainties of the decisions.
 
-use taceva_core::counted;
+use taceva_core::{counted, distinct};
 use taceva_metrology::conformity::{Decision, Word};
 
 use super::Acceptance;
@@ -128,6 +128,21 @@ impl Acceptance<'_> {
             notes.push("A conditional pass counts as met.".to_owned());
         }
         notes
+    }
+
+    /// Remarks on limits without a variant that apply to the variant that verdicts use, one for each metric.
+    pub(super) fn variant_notes(&self) -> Vec<String> {
+        let notes = self.findings.iter().filter_map(|check| {
+            let Limit {
+                metric, channel, ..
+            } = &check.limit;
+            let variant = self.study.score(metric, channel)?.decided_by()?;
+            Some(format!(
+                "{metric}: the limit applies to {metric}.{}, which verdicts use.",
+                variant.name
+            ))
+        });
+        distinct(notes)
     }
 
     /// Remark on accepted edits of the result or its recording; `None` if there are none.

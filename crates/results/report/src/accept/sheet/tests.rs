@@ -270,3 +270,20 @@ fn sheet_and_provenance_name_the_laboratory_and_the_operator_of_the_recording() 
     let devices = study.provenance.iter().find(|(name, _)| name == "devices");
     assert_eq!(devices.expect("settings").1, "exposure_ms = 15");
 }
+
+#[test]
+fn a_limit_without_a_variant_names_the_variant_that_verdicts_use() {
+    let studies = crate::results::unsealed(
+        r#"{"schema": "taceva.evaluation/1.0", "subject": {"sensor": "drawn"}, "metrics": {
+            "uniformity": {"Fz": {"value": 0.75, "unit": "1", "n": 80,
+                "debiased": {"value": 0.875, "unit": "1"}}}}}"#,
+    );
+    let study = studies.expect("a result").remove(0);
+    let limit = "metric = \"uniformity\"\nchannel = \"Fz\"\nunit = \"1\"\nleast = 0.8";
+    let text = sheet(&study, &held(&study, &[limit])).table().text();
+    let note = "uniformity: the limit applies to uniformity.debiased, which verdicts use.";
+    assert!(text.contains("0.875") && text.contains(note), "{text}");
+    let template = crate::accept::limits_template(&study);
+    let metric = "\nmetric = \"uniformity.debiased\"\n";
+    assert!(template.contains(metric), "{template}");
+}
