@@ -6,7 +6,9 @@ use std::path::Path;
 use taceva_acquire::PlannedScene;
 use taceva_drivers::{Drivers, Selector};
 use taceva_host::PluginHost;
+use taceva_study::check_models;
 
+use super::plugins::models_with;
 use super::{Context, run, scene, widths};
 use crate::args::PlanArgs;
 use crate::{exit, output, report, stderr};
@@ -17,6 +19,7 @@ pub(crate) fn run(args: &PlanArgs, context: &Context) -> anyhow::Result<u8> {
     let host = context.plugins(Some(Path::new(&args.scene.scene)))?;
     let drivers = Drivers::builtin()?.with_plugins(&host)?;
     let planned = scene::planned(&args.scene, &drivers)?;
+    check_models(&planned, &models_with(&host))?;
     run::faults::check(&planned, &drivers)?;
     run::faults::plugin_faults(&planned, &host.models())?;
     scene::print_cost(&planned, Path::new("."), context)?;

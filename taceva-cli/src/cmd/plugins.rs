@@ -21,6 +21,11 @@ fn compiled() -> Models {
     Models::builtin().with_libraries(taceva_models::library_models())
 }
 
+/// All models: built-in models, models of linked libraries, and models of the plugins of `host`.
+pub(crate) fn models_with(host: &Arc<PluginHost>) -> Models {
+    compiled().with(host.models())
+}
+
 impl Context {
     /// All drivers: built-in drivers and drivers of plugins, including plugins next to the scene at `scene`.
     pub(crate) fn drivers(&self, scene: Option<&Path>) -> anyhow::Result<Drivers> {
@@ -30,15 +35,14 @@ impl Context {
 
     /// All models: built-in models, models of linked libraries, and models of plugins.
     pub(crate) fn models(&self) -> anyhow::Result<Models> {
-        let host = self.plugins(None)?;
-        Ok(compiled().with(host.models()))
+        Ok(models_with(&self.plugins(None)?))
     }
 
     /// All drivers and models, including drivers and models of plugins next to the scene at `scene`.
     pub(crate) fn equipment(&self, scene: &Path) -> anyhow::Result<(Drivers, Models)> {
         let host = self.plugins(Some(scene))?;
         let drivers = Drivers::builtin()?.with_plugins(&host)?;
-        Ok((drivers, compiled().with(host.models())))
+        Ok((drivers, models_with(&host)))
     }
 
     /// Plugins that were found, isolated by the settings of the user.

@@ -1,14 +1,14 @@
 //! Tables of errors with faults.
 
 mod numbers;
-
-use std::collections::BTreeSet;
+mod remarks;
 
 use taceva_core::counted;
 use taceva_report::{Cell, Column, FormattedValue, Table, main_channels};
-use taceva_stress::{By, Estimate, FaultReport, NEVER, StressReport, TARGETS, Undefined};
+use taceva_stress::{Estimate, FaultReport, NEVER, StressReport, Undefined};
 
 pub(crate) use self::numbers::numbers;
+use self::remarks::{missed_targets, reference_tests, unshown_skill};
 
 /// Table for readers with one row for each fault and severity: ratios of the error with the fault to the error without.
 pub(crate) fn table(report: &StressReport) -> Table {
@@ -90,7 +90,7 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     notes.extend(unshown_skill(report.samples, skills));
     let faults = report.faults.iter();
     notes.extend(faults.map(|fault| of_fault(report, fault, channels)));
-    notes.extend(tests(report, channels));
+    notes.extend(reference_tests(report, channels));
     let mean = by_channel(channels, |name| Some(phrase(report.mean.get(name)?, "")));
     let is_bound = report.faults.iter().any(|fault| fault.stopped_at.is_some());
     let bound = if is_bound { "≥ " } else { "" };
@@ -134,50 +134,6 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     notes.extend(report.notes.iter().cloned());
     notes.extend(report.not_measured.clone());
     notes
-}
-
-/// Remark on skill without a fault whose interval includes 0, although more tested samples may show it.
-fn unshown_skill<'a>(
-    samples: usize,
-    skills: impl Iterator<Item = (&'a str, Estimate)>,
-) -> Option<String> {
-    let unshown = skills.filter(|(_, skill)| {
-        let is_positive = skill.value.is_some_and(|value| value > 0.0);
-        is_positive && skill.is_above_zero() == Some(false)
-    });
-    let unshown = unshown.map(|(name, skill)| format!("{name} {}", phrase(&skill, "")));
-    let unshown: Vec<String> = unshown.collect();
-    (!unshown.is_empty()).then(|| {
-        format!(
-            "Skill without a fault is not shown by {}: {}. A larger test part narrows its interval: fit with shares such as --split 'random 40/10/50'.",
-            counted(samples, "sample"),
-            unshown.join(", ")
-        )
-    })
-}
-
-/// Remark on severities whose pictures change by less than half of the target, or more than twice the target; `None` without such severities.
-fn missed_targets(report: &StressReport) -> Option<String> {
-    if report.by == By::Parameter {
-        return None;
-    }
-    let cells = report.faults.iter().flat_map(|fault| {
-        let severities = fault.severities.iter();
-        severities.filter_map(move |of| {
-            let target = TARGETS[usize::from(of.severity) - 1];
-            let stimulus = of.stimulus?;
-            let is_near = (0.5 * target..=2.0 * target).contains(&stimulus);
-            let words = || format!("{} {} {}", fault.id, of.severity, short(stimulus));
-            (!is_near).then(words)
-        })
-    });
-    let cells: Vec<String> = cells.collect();
-    (!cells.is_empty()).then(|| {
-        format!(
-            "Stimulus of the scored pictures below half or above twice its target (fault, severity, stimulus): {}.",
-            cells.join(", ")
-        )
-    })
 }
 
 /// Summary of a fault on one line.
@@ -266,34 +222,6 @@ fn verdicts(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> St
         }
     });
     words.collect()
-}
-
-/// Remark on the test of differences from the reference model, with the differences that were not tested; `None` without a reference model.
-fn tests(report: &StressReport, channels: &[&str]) -> Option<String> {
-    report.reference.as_ref()?;
-    let all = report.faults.iter().filter_map(|of| of.difference.as_ref());
-    let untested = all.clone().flatten().filter_map(|(name, of)| {
-        let reason = of.reason.as_ref()?;
-        let is_main = channels.contains(&name.as_str());
-        is_main.then(|| format!("{name}: {reason}"))
-    });
-    let untested: BTreeSet<String> = untested.collect();
-    let untested: Vec<String> = untested.into_iter().collect();
-    let untested = untested.join("; ");
-    let tested = all.flatten().filter(|(_, of)| of.p.is_some());
-    let tested = match tested.count() {
-        0 => String::new(),
-        count => format!(
-            ": paired sign-flip tests by contact point or group, p and intervals by Holm over {}; others are not shown",
-            counted(count, "difference")
-        ),
-    };
-    let untested = match untested.is_empty() {
-        true => untested,
-        false => format!("; not tested: {untested}"),
-    };
-    let words = tested + &untested;
-    (!words.is_empty()).then(|| format!("Differences from the reference model{words}."))
 }
 
 /// Metrics of time without a fault and at each severity, on one line.
@@ -399,31 +327,4 @@ pub(super) fn cell(of: &Estimate) -> Cell {
         formatted: formatted(of),
         ..taceva_report::Estimate::default()
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use taceva_stress::Estimate;
-
-    use super::unshown_skill;
-
-    #[test]
-    fn a_wide_interval_of_skill_is_told_from_a_model_without_skill() {
-        let skill = |value: f64, ends: [f64; 2]| Estimate {
-            ci95: Some(ends),
-            ..Estimate::of_known(Some(value))
-        };
-        let skills = [
-            ("Fxy", skill(0.74, [-0.10, 0.94])),
-            ("Fz", skill(-0.5, [-1.0, 0.2])),
-            ("Pz", skill(0.77, [0.60, 0.86])),
-        ];
-        let said = unshown_skill(46, skills.into_iter()).unwrap();
-        assert!(
-            said.starts_with("Skill without a fault is not shown by 46 samples: Fxy 0.7"),
-            "{said}"
-        );
-        assert!(!said.contains("Fz ") && !said.contains("Pz "), "{said}");
-        assert_eq!(unshown_skill(46, skills.into_iter().skip(1)), None);
-    }
 }

@@ -57,7 +57,7 @@ fn a_gripper_is_imported_checked_fitted_and_predicted_by_one_view_or_both() {
     bench.refused(
         "predict gripper --with right.model --view left --out other.csv",
         3,
-        "it was fitted on the view `right`, but the pictures are of the view `left`",
+        "the model was fitted on the view `right`, but the pictures are of the view `left`",
     );
     let report = bench.json("evaluate gripper --with right.model --metrics accuracy");
     crate::schema::check("evaluation", &report);

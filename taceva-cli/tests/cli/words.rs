@@ -230,7 +230,7 @@ fn one_file_given_twice_is_said_to_be_one_file() {
     bench.ok(
         "evaluate data --model ridge --split by-point --set size=8x8 --format json --out a.json -q",
     );
-    bench.refused("compare a.json ./a.json", 2, "./a.json: given twice");
+    bench.refused("compare a.json ./a.json", 2, "./a.json is named twice");
 }
 
 #[test]

@@ -70,14 +70,14 @@ fn a_split_that_cannot_divide_the_points_is_refused_before_a_press() {
 }
 
 #[test]
-fn a_recording_of_a_scene_may_be_split_by_time() {
+fn a_recording_of_a_scene_may_be_split_at_random() {
     let bench = Bench::new();
     bench.lab();
     bench.ok("import lab --map map.toml --out data -q");
-    let scene = "scene_version = 1\nname = \"again\"\nmodel = { name = \"ridge\", split = \"chronological\", set = { size = \"8x8\" } }\n\
+    let scene = "scene_version = 1\nname = \"again\"\nmodel = { name = \"ridge\", split = \"random 40/10/50\", set = { size = \"8x8\" } }\n\
                  sensor = { dataset = \"data\" }\nmetrics = { want = [\"mae\"] }\n";
     bench.write("again.toml", scene);
     let run = bench.json("run again.toml --out r");
     let split = run["studies"][0]["provenance"]["split"].to_string();
-    assert!(split.starts_with("\"chronological"), "{split}");
+    assert!(split.starts_with("\"random 40/10/50"), "{split}");
 }

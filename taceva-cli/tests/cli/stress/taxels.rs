@@ -88,7 +88,7 @@ fn a_model_of_signals_is_tested_with_faults_of_taxels_unless_others_are_named() 
     assert!(said.contains("taxel_drift"), "{said}");
     assert!(said.contains("new untouched signals remove"), "{said}");
     assert!(
-        said.contains("by a fault of signals without a finding"),
+        said.contains("by a fault that no check of signals finds"),
         "{said}"
     );
     let plan = bench.ok("stress unseen --model skin.taceva --explain");
@@ -195,7 +195,7 @@ stress = { severities = [5] }
     let planned = bench.run("plan both.toml");
     assert_eq!(planned.code, 0, "{}", planned.err);
     let expected =
-        "3 faults of 1 severity on the samples of the test part, each read once more; nothing is";
+        "3 faults of 1 severity on the samples of the test part, each read once more; no press";
     assert!(planned.err.contains(expected), "{}", planned.err);
     bench.ok("run both.toml --out r -q");
     let text = fs::read_to_string(bench.path("r/stress/1-both.json")).expect("written");
