@@ -5,7 +5,7 @@ mod remarks;
 
 use taceva_core::counted;
 use taceva_report::{Cell, Column, FormattedValue, Table, main_channels};
-use taceva_stress::{Estimate, FaultReport, NEVER, StressReport, Undefined};
+use taceva_stress::{By, Estimate, FaultReport, NEVER, StressReport, Undefined};
 
 pub(crate) use self::numbers::numbers;
 use self::remarks::{missed_targets, reference_tests, unshown_skill};
