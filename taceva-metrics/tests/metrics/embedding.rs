@@ -267,7 +267,7 @@ fn a_value_in_words_fills_its_column_and_no_precision_cuts_it() {
     assert_eq!(format!("{empty:>9.1}|"), "undefined: empty|");
     let absent = Value::NotApplicable(InapplicableReason::NotOneNumber);
     assert_eq!(
-        format!("{absent:>41}|"),
+        format!("{absent:>45}|"),
         "  not applicable: many numbers instead of one|"
     );
 }

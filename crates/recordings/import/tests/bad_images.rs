@@ -134,7 +134,7 @@ fn an_image_file_beyond_the_byte_cap_is_refused() {
     let lab = Lab::new();
     let file = fs::File::create(lab.path("source/images/0.png")).expect("created");
     file.set_len((256 << 20) + 1).expect("sparse");
-    lab.is_refused_with(&["line 2", "more than the 268435456"]);
+    lab.is_refused_with(&["line 2", "expected at most 268435456"]);
 }
 
 #[test]

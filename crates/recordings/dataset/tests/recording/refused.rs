@@ -75,7 +75,7 @@ fn samples_that_cannot_be_recorded_are_refused_and_lose_nothing() {
         ),
         (
             sample(2).with_truth(Readings::from_values([0.0; 3])),
-            "3 values for 2 channels",
+            "3 values, expected at most 2",
         ),
         (
             sample(2).with_stamp(Stamp {

@@ -276,7 +276,7 @@ fn more_than_a_million_members_are_refused() {
             file.write_all(folder.as_bytes()).expect("written");
         }
     }
-    assert!(refused(&path).contains("more than the 1048576 members"));
+    assert!(refused(&path).contains("more than 1048576 members"));
 }
 
 #[test]

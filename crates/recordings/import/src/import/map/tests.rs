@@ -131,7 +131,7 @@ fn a_map_above_one_mebibyte_is_not_read() {
     let path = folder.path().join("m.toml");
     std::fs::write(&path, "#".repeat((1 << 20) + 1)).expect("written");
     let message = ImportMap::read(&path).expect_err("large").to_string();
-    assert!(message.contains("more than the 1048576"), "{message}");
+    assert!(message.contains("expected at most 1048576"), "{message}");
 }
 
 #[test]
