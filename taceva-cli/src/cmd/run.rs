@@ -106,7 +106,11 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         false if existing != Existing::Resume && folder.remove_if_untouched() => {
             format!("nothing was recorded: {} was removed", shown(&path))
         }
-        false => format!("run in {}", shown(&path)),
+        false => format!(
+            "run in {}, continued by `{}`",
+            shown(&path),
+            resumption(args, &path, context)
+        ),
     })?;
     cache::note(cache.as_ref(), context);
     if let Some(cache) = &cache {

@@ -38,11 +38,15 @@ pub(crate) fn write(dataset: &Dataset, out: &mut dyn Write) -> io::Result<()> {
             line("measured", &words)?;
         }
     }
+    let by = [("laboratory", "at"), ("operator", "by")];
+    for (name, word) in by {
+        if let Some(value) = header.settings.get(name) {
+            line("recorded", &format!("{word} {value}"))?;
+        }
+    }
     for (name, value) in &header.settings {
-        match name.as_str() {
-            "laboratory" => line("recorded", &format!("at {value}"))?,
-            "operator" => line("recorded", &format!("by {value}"))?,
-            name => line("setting", &format!("{name} = {value}"))?,
+        if by.iter().all(|(of_person, _)| of_person != name) {
+            line("setting", &format!("{name} = {value}"))?;
         }
     }
     if let Some(sessions) = RecordedSessions::of(dataset.path()) {

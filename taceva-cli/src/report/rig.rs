@@ -67,7 +67,7 @@ pub(crate) fn tap(tap: &RigTap, format: ListFormat, out: &mut dyn Write) -> io::
     for (device, latency) in [("force", force), ("sensor", sensor)] {
         writeln!(
             out,
-            "{device:<7} {:+.1} ms after the robot (± {:.1} ms; single tap ± {:.1} ms)",
+            "{device:<7} {:+.1} ms after the robot (± {:.2} ms; single tap ± {:.2} ms)",
             latency.after_robot_ms, latency.error_ms, latency.spread_ms
         )?;
     }

@@ -211,6 +211,7 @@ fn a_carousel_changes_what_an_emulated_bench_presses_with_and_its_failures_lose_
         let ran = run_until(&bench, |ran| ran.err.contains(said));
         assert_eq!(ran.code, 4, "{mood:?}: {}", ran.err);
         assert!(ran.err.contains(said), "{mood:?}: {}", ran.err);
+        assert!(ran.err.contains("continued by `"), "{mood:?}: {}", ran.err);
         assert!(stands_above(&emulated.bench), "{mood:?}");
     }
     carousel.is(Mood::Well);

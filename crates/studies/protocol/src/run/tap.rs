@@ -101,8 +101,12 @@ pub fn tap<'a>(
 
 impl Run<'_> {
     fn tap(&mut self, listener: &mut dyn TapListener) -> Result<Tapped, RunError> {
+        let mounted = match self.plan.presses.first() {
+            Some(first) => format!("the {}", first.press.specimen),
+            None => "the specimen of the first press".to_owned(),
+        };
         let way = format!(
-            "up to {} mm above the gel, down for a gentle touch at its middle, then {} taps; the specimen of the first press is mounted",
+            "up to {} mm above the gel, down for a gentle touch at its middle, then {} taps; {mounted} is mounted",
             self.tip.pace.clearance_mm,
             Tapped::TAPS
         );

@@ -347,7 +347,10 @@ fn names_that_could_not_be_printed_or_filed_are_refused() {
 #[test]
 fn two_studies_of_one_name_are_refused() {
     let error = with("[[study]]\nname = \"a\"\n[[study]]\nname = \"a\"");
-    assert_eq!(error, "s.toml, line 12: `a` is the name of two studies");
+    assert_eq!(
+        error,
+        "s.toml, line 12: `a` is the name of two studies: give each its own name"
+    );
 }
 
 #[test]
