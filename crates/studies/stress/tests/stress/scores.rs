@@ -334,7 +334,7 @@ fn a_plan_names_faults_and_frames_and_reads_none() {
     assert!(text.contains("60 frames of the part `all`"), "{text}");
     assert!(text.contains("fault    tear: a disc"), "{text}");
     assert!(
-        text.contains("10 cells, and with 5 untouched pictures"),
+        text.contains("10 cells; also with 5 untouched pictures"),
         "{text}"
     );
     assert!(text.contains("synthetic"), "{text}");
