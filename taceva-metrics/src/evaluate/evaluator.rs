@@ -104,7 +104,7 @@ impl Evaluator {
 
     /// Adds `truth` and `prediction` of one channel, one number per sample, in the unit of the channel. Both may be slices, vectors,
     /// arrays, iterators or views of `f32` or `f64`. These samples have no value in other channels. For several channels or contact points
-    /// use [`Rows`].
+    /// use [`Rows`]. A pair with a NaN or an infinite number is left out and counted in [`n_invalid`](crate::Score::n_invalid).
     ///
     /// # Errors
     /// [`MetricError::Lengths`] if the lengths differ, [`MetricError::Channels`] if the plan lacks the channel. Nothing is added then,

@@ -13,8 +13,7 @@ impl Evaluator {
     /// Sums are exact, so any number of threads gives the same result, bit for bit.
     ///
     /// ```
-    /// use taceva_core::{Batch, Channel, Channels, Column, FieldSet};
-    /// use taceva_metrics::{Evaluator, MetricPlan, catalogue};
+    /// use taceva_metrics::{Batch, Channel, Channels, Column, Evaluator, FieldSet, MetricPlan, catalogue};
     /// let channels = Channels::new([Channel::FZ])?;
     /// let plan = MetricPlan::new(&catalogue::select(["mae"])?, channels.clone(), FieldSet::PAIRS);
     /// let batch = |truth: f64| {

@@ -18,12 +18,11 @@ use crate::stats::IntervalMethod;
 /// Plan of an evaluation of given channels and fields.
 ///
 /// ```
-/// use taceva_core::{Channel, Channels, FieldSet};
-/// use taceva_metrics::{MetricPlan, catalogue};
+/// use taceva_metrics::{Channel, Channels, FieldSet, MetricPlan, catalogue};
 /// let channels = Channels::new([Channel::FZ])?;
 /// let plan = MetricPlan::new(&catalogue::ALL, channels, FieldSet::PAIRS);
 /// assert_eq!(plan.skipped()[0].reason.to_string(), "channel `Px` is not scored");
-/// # Ok::<(), taceva_core::ChannelError>(())
+/// # Ok::<(), taceva_metrics::ChannelError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct MetricPlan {
@@ -61,13 +60,12 @@ impl MetricPlan {
     /// The same plan with another method for intervals.
     ///
     /// ```
-    /// use taceva_core::{Channel, Channels, FieldSet};
-    /// use taceva_metrics::{IntervalMethod, MetricPlan, PoissonBootstrap, catalogue};
+    /// use taceva_metrics::{Channel, Channels, FieldSet, IntervalMethod, MetricPlan, PoissonBootstrap, catalogue};
     /// let bootstrap = PoissonBootstrap::DEFAULT.with_replicates(2000).with_seed(7);
     /// let plan = MetricPlan::new(&catalogue::ALL, Channels::new([Channel::FZ])?, FieldSet::PAIRS)
     ///     .with_interval_method(IntervalMethod::PoissonBootstrap(bootstrap));
     /// # assert_eq!(plan.interval_method(), IntervalMethod::PoissonBootstrap(bootstrap));
-    /// # Ok::<(), taceva_core::ChannelError>(())
+    /// # Ok::<(), taceva_metrics::ChannelError>(())
     /// ```
     #[must_use]
     pub fn with_interval_method(self, interval_method: IntervalMethod) -> MetricPlan {

@@ -11,7 +11,8 @@ use crate::stats::row_groups::HASHED_CLUSTERS;
 
 /// Mergeable summary of a set of samples.
 ///
-/// Equal sets of samples have equal states, for any order, split or merge.
+/// Equal sets of samples have equal states, for any order, split or merge. A format that keeps every bit of a number keeps them equal too:
+/// `serde_json` needs its feature `float_roundtrip`.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Evaluator};

@@ -153,7 +153,7 @@ impl Interval {
         self
     }
 
-    /// Both ends; `None` without an interval.
+    /// Both ends; `None` without an interval. [`Interval::Undefined`] then has the reason.
     pub fn ends(&self) -> Option<[f64; 2]> {
         match *self {
             Interval::Jackknife { low, high, .. }

@@ -50,8 +50,7 @@ impl Question {
 /// Answer of a comparison at a level of 5 %, after [`decide`](crate::decide) has decided the difference within its family.
 ///
 /// ```
-/// use taceva_core::Unit;
-/// use taceva_metrics::{Better, Estimate, Question, Side, Sides, Verdict, by_intervals};
+/// use taceva_metrics::{Better, Estimate, Question, Side, Sides, Unit, Verdict, by_intervals};
 /// let difference = by_intervals(Sides {
 ///     a: Estimate::try_new(0.041, 0.0024, 32)?,
 ///     b: Estimate::try_new(0.053, 0.0032, 32)?,

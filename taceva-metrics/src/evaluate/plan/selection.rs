@@ -42,8 +42,7 @@ impl MetricPlan {
     /// The same plan with `facts` about the sensor, and the additional metrics that these facts allow.
     ///
     /// ```
-    /// use taceva_core::{Channel, Channels, FieldSet, Footprint};
-    /// use taceva_metrics::{MetricPlan, SensorFacts, catalogue};
+    /// use taceva_metrics::{Channel, Channels, FieldSet, Footprint, MetricPlan, SensorFacts, catalogue};
     /// let channels = Channels::new([Channel::PX, Channel::PY, Channel::PZ, Channel::FZ])?;
     /// let plan = MetricPlan::new(&catalogue::select(["uniformity"])?, channels, FieldSet::PAIRS);
     /// assert_eq!(plan.skipped()[0].reason.to_string(), "the sensor's `footprint` is not declared");
