@@ -51,6 +51,6 @@ pub use stats::{
 // Types in these signatures, so that a caller needs no other crate.
 pub use taceva_core::{
     Batch, BatchBuilder, Channel, ChannelError, Channels, Column, Field, FieldSet, Footprint,
-    FootprintError, GratingKind, Isa, IsaError, Labels, Nanometre, Needs, Phase, Readings, Sample,
-    SampleSink, SinkError, SkipReason, Skipped, Stamp, Unit,
+    FootprintError, GratingKind, Isa, IsaError, Labels, Nanometre, Needs, Newton, Phase, Readings,
+    Sample, SampleSink, SinkError, SkipReason, Skipped, Stamp, Unit,
 };

@@ -129,7 +129,7 @@ fn usual_faults(study: &PlannedStudy) -> String {
     let model = study.study.model.as_ref();
     let is_file = model.is_some_and(|model| model.file.is_some());
     let input = model.and_then(|model| model.set.get("input")?.as_str());
-    match (input, is_recorded(study) && is_file) {
+    match (input, is_file && study.study.sensor.dataset.is_some()) {
         (_, true) => format!(
             "{} of pictures or {taxels} of taxels",
             counted(pictures, "fault")
@@ -137,11 +137,6 @@ fn usual_faults(study: &PlannedStudy) -> String {
         (Some("signals"), false) => counted(taxels, "fault"),
         _ => counted(pictures, "fault"),
     }
-}
-
-/// True if the samples of `study` come from a recording, which may have signals.
-fn is_recorded(study: &PlannedStudy) -> bool {
-    study.study.sensor.dataset.is_some()
 }
 
 /// Text on the samples of `study` for the faults, and on their decoding; `None` if no metric reads predictions.
@@ -155,7 +150,7 @@ fn samples(study: &PlannedStudy) -> Option<String> {
     let pictures = presses.iter().filter(|planned| planned.frames);
     let pictures: usize = pictures.map(|planned| planned.press.samples()).sum();
     Some(match pictures {
-        _ if is_recorded(study) => "the samples of the test part, each read".to_owned(),
+        _ if study.study.sensor.dataset.is_some() => "the samples of the test part, each read".to_owned(),
         0 => "the pictures of the test part, each decoded".to_owned(),
         _ => format!(
             "about {} of the test part, each decoded",

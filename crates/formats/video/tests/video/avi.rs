@@ -116,7 +116,7 @@ fn an_index_that_contradicts_the_frames_is_refused_with_its_place() {
     });
     let error = open(&short).expect_err("refused").to_string();
     assert!(
-        error.contains("it lists 7 frames, but the file has 8"),
+        error.contains("the index lists 7 frames, but the file has 8"),
         "{error}"
     );
 }
