@@ -150,7 +150,9 @@ fn samples(study: &PlannedStudy) -> Option<String> {
     let pictures = presses.iter().filter(|planned| planned.frames);
     let pictures: usize = pictures.map(|planned| planned.press.samples()).sum();
     Some(match pictures {
-        _ if study.study.sensor.dataset.is_some() => "the samples of the test part, each read".to_owned(),
+        _ if study.study.sensor.dataset.is_some() => {
+            "the samples of the test part, each read".to_owned()
+        }
         0 => "the pictures of the test part, each decoded".to_owned(),
         _ => format!(
             "about {} of the test part, each decoded",
