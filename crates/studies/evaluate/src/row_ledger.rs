@@ -257,7 +257,9 @@ mod tests {
         let rows = all.add(path("c.state"), "3", &[taken("x", &[1, 2])]);
         let rows = rows.expect_err("rows again");
         assert!(
-            rows.contains("1 row of x is already in a.state, from row 1 on, so it would count twice"),
+            rows.contains(
+                "1 row of x is already in a.state, from row 1 on, so it would count twice"
+            ),
             "{rows}"
         );
     }

@@ -133,7 +133,11 @@ mod tests {
         }
         let line = counts.add(&halted(41.0, 38.0, None), "SCHED_OTHER");
         let line = line.expect("late");
-        for words in ["(SCHED_OTHER)", "waited 38 ms for a processor", "chrt -f 10"] {
+        for words in [
+            "(SCHED_OTHER)",
+            "waited 38 ms for a processor",
+            "chrt -f 10",
+        ] {
             assert!(line.contains(words), "{line}");
         }
         let line = counts.add(&halted(2.0, 0.0, Some(81.0)), "SCHED_FIFO");

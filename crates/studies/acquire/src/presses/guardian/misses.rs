@@ -119,7 +119,12 @@ mod tests {
     fn a_late_turn_states_policy_and_waiting_and_whose_remedy_it_is() {
         let mut misses = Misses::default();
         let kernel = note(&mut misses, turn(10.0, 84.0, 71.0)).expect("a line");
-        for words in ["84 ms", "(SCHED_OTHER)", "waited 71 ms for a processor", "chrt -f 10"] {
+        for words in [
+            "84 ms",
+            "(SCHED_OTHER)",
+            "waited 71 ms for a processor",
+            "chrt -f 10",
+        ] {
             assert!(kernel.contains(words), "{kernel}");
         }
         let program = note(&mut misses, turn(11.0, 84.0, 3.0)).expect("a line");
