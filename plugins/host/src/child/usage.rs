@@ -30,7 +30,7 @@ impl fmt::Display for Usage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "slow: callers waited {:.1} s of {:.1} s for its replies, and it used {:.1} s of processor time",
+            "callers waited {:.1} s of {:.1} s for its replies, with waits for frames and readings, and it used {:.1} s of processor time",
             self.calls.as_secs_f64(),
             self.whole.as_secs_f64(),
             self.processor.as_secs_f64()

@@ -226,7 +226,7 @@ impl fmt::Display for LoadProblem {
                 module: None,
             } => write!(
                 f,
-                "{what}: the manifest says {manifest}, the library {library}"
+                "{what}: the manifest says {manifest}, the library {library}; if the library is right, run `taceva plugin manifest --write` in its folder"
             ),
             LoadProblem::Differs {
                 what,
@@ -266,7 +266,7 @@ mod tests {
         );
         assert_eq!(
             differs(None).to_string(),
-            "`median`, arguments: the manifest says `strength`, the library `quantile`"
+            "`median`, arguments: the manifest says `strength`, the library `quantile`; if the library is right, run `taceva plugin manifest --write` in its folder"
         );
     }
 }

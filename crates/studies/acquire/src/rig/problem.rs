@@ -70,7 +70,7 @@ impl fmt::Display for RigProblem {
             }
             RigProblem::Unheard { device } => write!(
                 f,
-                "the {device} sent nothing: check its cable, its address in the rig file, and whether another program uses it"
+                "the {device} sent no valid data: check its cable, its address in the rig file, and whether another program uses it; for a plugin, `taceva plugin check` prints its errors"
             ),
             RigProblem::Gaps { gap_ms, allowed_ms } => write!(
                 f,
