@@ -301,7 +301,9 @@ impl fmt::Display for UndefinedReason {
             UndefinedReason::Greatest => {
                 f.write_str("the interval of a greatest value is unreliable")
             }
-            UndefinedReason::AtEnd => f.write_str("at the end of its range in every cluster"),
+            UndefinedReason::AtEnd => {
+                f.write_str("the score is at the end of its range in every cluster")
+            }
             UndefinedReason::ZeroMean => f.write_str("the mean is zero"),
             UndefinedReason::NoReferenceScene => f.write_str("no sample of the reference scene"),
             UndefinedReason::OneScene => f.write_str("only the reference scene"),

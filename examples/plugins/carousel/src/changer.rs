@@ -1,5 +1,5 @@
-//! Driver of a carousel of specimens, controlled by lines over TCP. `turn N` turns it to place N, counted from 1. At rest it answers `at N` with the
-//! number from its own reader, or `fault` and a message. The carousel stops at once if the connection ends.
+//! Driver of a carousel of specimens, controlled by lines over TCP. `turn N` turns it to place N, counted from 1. Once at rest, it answers
+//! `at N`, with N from its own reader, or `fault` and a message. The carousel stops at once if the connection ends.
 
 use std::io::{ErrorKind as IoErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};

@@ -49,7 +49,7 @@ impl State {
         matches!(self.0, 0 | 2)
     }
 
-    /// True if the arm makes no motion: it is paused, stopped or slowing down, or its state is unknown.
+    /// True if the arm is neither moving nor ready: it is paused, stopped, slowing down or waiting to be made ready, or its state is unknown.
     pub(super) fn is_stopped(self) -> bool {
         self != State::MOVING && !self.is_ready()
     }

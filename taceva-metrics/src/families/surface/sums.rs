@@ -34,7 +34,7 @@ pub(crate) struct SurfaceSums {
     pub(crate) work: ExactSum,
     /// Σ F².
     pub(crate) force_squares: ExactSum,
-    /// s of samples within the footprint, by cell: of all samples, and of samples without shear.
+    /// Moments of s = RN(Δz / F) within the footprint, by cell: for all samples, and for samples without shear.
     pub(crate) cells: SortedMap<Cell, [Moments; 2]>,
 }
 

@@ -46,7 +46,7 @@ pub(super) fn all(studies: &[Study], scores: &ScoreTable) -> [Made; 5] {
     ]
 }
 
-/// True if a cell has one of our numbers.
+/// True if a cell has a number of the given results. Numbers that the paper prints do not count.
 pub(super) fn has_values(table: &Table) -> bool {
     let mut cells = table.rows.iter().flat_map(|row| &row.cells);
     cells.any(|cell| matches!(cell, Cell::Estimate(of) if !matches!(of.formatted.value.as_str(), "" | "–")))

@@ -31,7 +31,7 @@ impl TaskComparison {
         &self.results[at].name
     }
 
-    /// All scores of all tasks, in the order of their first appearance.
+    /// Compared scores of all tasks, limited to the requested metrics, in the order of their first appearance.
     fn lines(&self) -> Vec<Line<'_>> {
         let mut lines: Vec<Line<'_>> = Vec::new();
         for task in tasks(&self.results) {

@@ -132,7 +132,9 @@ impl DepthState {
                 .beside(hits.counts[BOTH], hits.counts[EITHER]),
             TaskScore::new(
                 "contact_iou",
-                format!("mean of the maps' own {words}, maps without contact left out"),
+                format!(
+                    "mean of the ratios of single maps ({words}), maps without contact left out"
+                ),
                 of_maps,
             )
             .variant("per_map"),

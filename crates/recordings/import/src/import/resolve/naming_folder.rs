@@ -43,7 +43,7 @@ impl NamedBy {
         Some(self.views.get(view)?.frames.as_ref()?.get(row)?)
     }
 
-    /// Folder of the joined table that names the picture without contact of `row`; `None` if the main table does.
+    /// Folder of the joined table that names the reference of `row` in the view at position `view`; `None` if the main table names the reference.
     pub(in crate::import) fn reference(&self, view: usize, row: usize) -> Option<&Path> {
         Some(self.views.get(view)?.references.as_ref()?.get(row)?)
     }
