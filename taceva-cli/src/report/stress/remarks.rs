@@ -86,7 +86,7 @@ mod tests {
     use super::unshown_skill;
 
     #[test]
-    fn a_wide_interval_of_skill_is_told_from_a_model_without_skill() {
+    fn a_wide_interval_of_skill_is_distinguished_from_a_model_without_skill() {
         let skill = |value: f64, ends: [f64; 2]| Estimate {
             ci95: Some(ends),
             ..Estimate::of_known(Some(value))

@@ -347,20 +347,16 @@ fn names_that_could_not_be_printed_or_filed_are_refused() {
 #[test]
 fn two_studies_of_one_name_are_refused() {
     let error = with("[[study]]\nname = \"a\"\n[[study]]\nname = \"a\"");
-    assert_eq!(
-        error,
-        "s.toml, line 12: `a` is the name of two studies: give each its own name"
-    );
+    let expected = "s.toml, line 12: `a` is the name of two studies: give each its own name";
+    assert_eq!(error, expected);
 }
 
 #[test]
 fn a_study_may_not_loosen_the_limits_of_its_scene() {
     let error =
         with("[limits]\nPz_max_mm = 0.5\n[[study]]\nname = \"a\"\nlimits = { Pz_max_mm = 0.6 }");
-    assert_eq!(
-        error,
-        "s.toml, line 13: `Pz_max_mm` is 0.6, but [limits] of the scene allows at most 0.5: limits may only be tightened"
-    );
+    let expected = "s.toml, line 13: `Pz_max_mm` is 0.6, but [limits] of the scene allows at most 0.5: limits may only be tightened";
+    assert_eq!(error, expected);
 }
 
 #[test]
