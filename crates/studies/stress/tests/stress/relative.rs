@@ -50,7 +50,7 @@ fn a_model_has_the_relative_error_one_to_itself_and_the_inverse_to_another() {
 }
 
 #[test]
-fn a_fault_is_shown_to_add_more_error_to_a_model_than_to_one_of_small_weights() {
+fn a_fault_is_shown_to_add_more_error_to_one_model_than_to_another() {
     let folder = tempfile::tempdir().expect("a folder");
     let (dataset, model) = unseen(folder.path());
     let seen = record(&folder.path().join("other"), 3);
@@ -62,7 +62,7 @@ fn a_fault_is_shown_to_add_more_error_to_a_model_than_to_one_of_small_weights() 
         let all = report.faults[0].difference.as_ref().expect("stated");
         all["Fz"].clone()
     };
-    let (more, less) = (of(&there), of(&back));
+    let (less, more) = (of(&there), of(&back));
     assert!(more.is_shown && more.value > Some(0.0), "{more:?}");
     assert_eq!(less.value, more.value.map(|value| -value));
     assert_eq!((less.p, less.is_shown), (more.p, true));
