@@ -89,7 +89,7 @@ fn check_split(
         )));
     }
     let [.., test] = spec.fractions.shares();
-    if test <= 0.0 {
+    if test <= 0.0 || spec.kind == SplitKind::All {
         return Err(refused(format!(
             "`split` is `{}`, which leaves nothing to score: expected a test share above 0, such as `by-point 40/10/50`",
             shown(&split.value)

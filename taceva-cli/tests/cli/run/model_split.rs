@@ -64,6 +64,7 @@ fn a_split_that_cannot_divide_the_points_is_refused_before_a_press() {
     refused(&split_by("cv:5"), "use `folds` instead");
     refused(&split_by("by-point 50/60/70"), "adds up to");
     refused(&split_by("by-point 80/20/0"), "leaves nothing to score");
+    refused(&split_by("all"), "leaves nothing to score");
     let both = "name = \"ridge\", folds = 3";
     let both = split_by("by-point").replace("name = \"ridge\"", both);
     refused(&both, "`folds` tests every contact point");
