@@ -175,7 +175,7 @@ fn predicting_another_shape_is_an_error() {
             .expect_err("buffer");
         assert_eq!(
             error.to_string(),
-            "a buffer of 6 values for 20 samples of 3 channels"
+            "a buffer of 6 values, expected 20 samples × 3 channels"
         );
     }
 }

@@ -72,7 +72,7 @@ fn parts_that_do_not_fit_each_other_are_refused() {
             .expect_err("buffer");
         assert_eq!(
             error.to_string(),
-            "a buffer of 6 values for 24 samples of 2 channels"
+            "a buffer of 6 values, expected 24 samples × 2 channels"
         );
     }
 }
