@@ -46,7 +46,7 @@ pub(super) fn of(
     TaskOutcome::of(POSE, scores).map(Some)
 }
 
-/// `request` with the first of the seeds of the scene, if it states any.
+/// `request` with the first of the seeds of the scene, if the scene states seeds.
 fn with_first_seed(scene: &PlannedScene, request: FitRequest) -> Result<FitRequest, EvaluateError> {
     match scene.seeds.first() {
         Some(seed) => request.with_seed(*seed),
