@@ -25,7 +25,7 @@ pub(crate) struct TaskArgs {
     /// Score a task in the place of channels, as NAME=KIND[:positive=CLASS][:names=A|B]: class, event, outcome, pose, place or depth; may be
     /// repeated. The column NAME holds classes. `NAME.p.CLASS` of the predictions holds scores. A pose has NAME.x .y .z (mm) .qx .qy .qz .qw, and
     /// takes thresholds of bins as NAME=pose:t=MM|MM:r=DEG|DEG. NAME=place:unit=m reads predictions in m. The truth of
-    /// NAME=depth[:unit=UNIT][:gate=MM] is a dataset, and the predictions are an array of maps (.npy, .npz, .h5). Refused with it, as options of
+    /// NAME=depth[:unit=UNIT][:gate=MM] is a dataset, and the predictions are an array of maps (.npy, .npz, .h5). Refused with --task, as options of
     /// channels: --units, --periods, --metrics, --independent, --sensor, --figures, --samples-out, --table, --explain
     #[arg(id = "task", long, value_name = "NAME=KIND", conflicts_with_all = OF_CHANNELS)]
     pub(crate) tasks: Vec<TaskSpec>,

@@ -15,7 +15,7 @@ use super::{Context, Usage, open_seen};
 use crate::args::Watch;
 use crate::{exit, output};
 
-/// Force below which the gel is untouched, and above which it is touched, N. Pictures between them are not watched.
+/// Force below which the gel is untouched, and above which it is touched, N. Pictures with a force between both are not watched.
 const UNTOUCHED_N: f64 = 0.05;
 const TOUCHED_N: f64 = 0.1;
 /// Number of untouched pictures after a contact that are not watched: pictures arrive later than forces, and the gel recovers.
