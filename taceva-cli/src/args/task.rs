@@ -47,7 +47,7 @@ pub(crate) struct TaskArgs {
 /// Frames that a sample of a task reads.
 #[derive(Debug, Args)]
 pub(crate) struct WindowArgs {
-    /// Predict a sample of the task from N frames: its own and those before it in its cluster, and the changes between them [default: 1]
+    /// Predict a sample of the task from N frames: its own frame, earlier frames of its cluster, and the changes between these frames [default: 1]
     #[arg(long, value_name = "N", requires = "task")]
     pub(crate) window: Option<u32>,
     /// Number of frames from one frame of the window to the next [default: 1]

@@ -26,7 +26,7 @@ pub(crate) fn run(args: &Watch, context: &Context) -> anyhow::Result<u8> {
     let seen = |path: &PathBuf| open_seen(std::slice::from_ref(path), &args.view, Some(&model));
     let Some(path) = args.calibration.as_ref().or(args.recording.as_ref()) else {
         return Err(Usage::error(
-            "--calibration: expected the recording of the calibration, because a change is compared with the change by contact there",
+            "--calibration: expected the recording of the calibration, because a change is compared with the change by contact in that recording",
         ));
     };
     let calibration = seen(path)?;
