@@ -16,7 +16,7 @@ use crate::models::fit_request;
 /// Name of the task.
 const POSE: &str = "pose";
 
-/// Scores of changes of pose, or the reason why there are none. `None` if the scene asks for none.
+/// Scores of changes of pose, or the reason why there are none. `None` if the scene asks for none or fits no model, or the recording has no plan.
 pub(super) fn of(
     scene: &PlannedScene,
     study: &PlannedStudy,
