@@ -268,7 +268,7 @@ fn code_of(error: &Error) -> u8 {
     exit::BAD_INPUT
 }
 
-/// Exit code of an error of acquisition or evaluation; `None` for other errors.
+/// Exit code of an error of acquisition, evaluation or a study; `None` for other errors.
 fn code_of_study(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
     let (is_usage, is_of_device, kind) = if let Some(error) = cause.downcast_ref::<EvaluateError>()
     {

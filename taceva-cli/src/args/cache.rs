@@ -47,7 +47,7 @@ pub(crate) struct CacheList {
 pub(crate) struct CachePrune {
     #[command(flatten)]
     pub(crate) cache: CacheFolder,
-    /// Remove entries that were unused for longer: 12h, 30d, 8w
+    /// Remove entries that were unused for longer than this: 12h, 30d, 8w
     #[arg(long, value_name = "AGE", value_parser = age)]
     pub(crate) older_than: Option<Duration>,
     /// Remove the longest unused entries until the cache holds at most this size: 2GiB, 500MB, 0

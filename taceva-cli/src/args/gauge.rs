@@ -36,10 +36,10 @@ pub(crate) struct Gauge {
     /// The readings [default: error where the table holds the truth, else prediction]
     #[arg(long, value_enum)]
     pub(crate) response: Option<GaugeResponse>,
-    /// The width of the tolerance with its unit, such as 0.1N: adds the ratio of six standard deviations to it
+    /// The width of the tolerance with its unit, such as 0.1N: adds the ratio of six standard deviations to the tolerance
     #[arg(long, value_name = "WIDTH")]
     pub(crate) tolerance: Option<String>,
-    /// Pool the interaction with repeatability if its p value is above this
+    /// Pool the interaction with repeatability if the p value of the interaction is above this number
     #[arg(long, value_name = "P", default_value_t = 0.25)]
     pub(crate) pool: f64,
     /// The channels to study, separated by commas, such as Fz; only one channel with --format json [default: all with a prediction, in the unit

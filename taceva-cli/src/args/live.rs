@@ -15,8 +15,8 @@ pub(crate) struct LiveArgs {
     /// The force transducer under the sensor or in the indenter: sri/m8128:host=192.168.0.108; without one, frames have no labels
     #[arg(long, value_name = "DRIVER")]
     pub(crate) force: Option<String>,
-    /// A rig file with a sensor and optionally a transducer, instead of the two options; it also states the axis that presses into the gel
-    /// and the latency of devices, see docs/capture.md. Its robot is not used
+    /// A rig file with a sensor and optionally a transducer, instead of --sensor and --force; it also states the axis that presses into the gel and
+    /// the latency of devices, see docs/capture.md. Its robot is not used
     #[arg(long, value_name = "FILE")]
     pub(crate) rig: Option<PathBuf>,
 }

@@ -34,9 +34,9 @@ pub(crate) enum RigSubject {
 
 /// Measure rates, gaps and noise of its devices, and halt its robot once on its way up to measure the stopping time
 ///
-/// Every device is read for 2 seconds without motion: its rate, its longest gap, the age of its values, and their noise. Put
-/// the tip at least a centimetre above the gel before. You then permit motion by typing the name of the robot. The robot goes 5 mm straight
-/// up, away from the gel, and is halted on the way.
+/// Every device is read for 2 seconds without motion: its rate, its longest gap, the age of its values, and their noise. Put the tip at least a
+/// centimetre above the gel first. You then permit motion by typing the name of the robot. The robot goes 5 mm straight up, away from the gel, and is
+/// halted on the way.
 ///
 /// Each device has a line: `ok`, `problem` for a value that would stop a run, or `error` with the remedy. A device that fails does not end
 /// the check: the next one is tried. If the robot, the force transducer or the enabling switch failed, nothing moves, and the line of the

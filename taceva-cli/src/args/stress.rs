@@ -27,7 +27,8 @@ pub(crate) struct Stress {
     /// times, ORG/NAME for a fault of a plugin [default: gel-12, or taxel-3 if the model reads signals]
     #[arg(long, value_name = "FAULTS", value_delimiter = ',')]
     pub(crate) faults: Vec<String>,
-    /// A second fitted model: states the error that each fault adds, divided by the error that it adds to this model, and shown differences of both
+    /// A second fitted model: also states the error that each fault adds, divided by the error that the fault adds to the second model, and the
+    /// differences that are shown
     #[arg(long, value_name = "MODEL")]
     pub(crate) reference: Option<PathBuf>,
     /// Severities, such as 3, 1,3,5 or 1-5

@@ -32,7 +32,8 @@ pub(crate) struct SceneArgs {
 pub(crate) struct Run {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
-    /// The model of every sensor, instead of the scene's and its settings: ridge, fast, cnn, auto and others of `taceva fit`; folds or the split remain
+    /// The model of every sensor, instead of the model and the settings of the scene: ridge, fast, cnn, auto and others of `taceva fit`; folds or the
+    /// split remain
     #[arg(long, value_name = "NAME")]
     pub(crate) model: Option<String>,
     /// A setting of the model or of its features, such as epochs=30 or size=32x32, in addition to those of the scene; may be repeated
@@ -49,17 +50,17 @@ pub(crate) struct Run {
     /// The folder of the run [default: runs/SCENE-NUMBER, a new one]
     #[arg(long = "out", value_name = "FOLDER")]
     pub(crate) folder: Option<PathBuf>,
-    /// Continue the run in that folder, or the last one
+    /// Continue the run in the folder of --out, or the last run
     #[arg(long, conflicts_with = "force")]
     pub(crate) resume: bool,
-    /// Remove the run in that folder, or the last one, and start again
+    /// Remove the run in the folder of --out, or the last run, and start again
     #[arg(long)]
     pub(crate) force: bool,
     /// Show the run on a page of this machine, whose address is printed: frames, force against its limits, presses, questions and a stop
     /// button. The page is not a safety function
     #[arg(long)]
     pub(crate) page: bool,
-    /// The port of that page on 127.0.0.1, 0 for any free port
+    /// The port of the page of --page on 127.0.0.1, 0 for any free port
     #[arg(long, value_name = "N", default_value_t = 0, requires = "page")]
     pub(crate) port: u16,
     #[command(flatten)]

@@ -25,7 +25,7 @@ pub(crate) struct TaskArgs {
     /// Score a task in the place of channels, as NAME=KIND[:positive=CLASS][:names=A|B]: class, event, outcome, pose, place or depth; may be
     /// repeated. The column NAME holds classes. `NAME.p.CLASS` of the predictions holds scores. A pose has NAME.x .y .z (mm) .qx .qy .qz .qw, and
     /// takes thresholds of bins as NAME=pose:t=MM|MM:r=DEG|DEG. NAME=place:unit=m reads predictions in m. The truth of
-    /// NAME=depth[:unit=UNIT][:gate=MM] is a dataset, and the predictions are an array of maps (.npy, .npz, .h5). Refused with it, as options of
+    /// NAME=depth[:unit=UNIT][:gate=MM] is a dataset, and the predictions are an array of maps (.npy, .npz, .h5). Refused with --task, as options of
     /// channels: --units, --periods, --metrics, --independent, --sensor, --figures, --samples-out, --table, --explain
     #[arg(id = "task", long, value_name = "NAME=KIND", conflicts_with_all = OF_CHANNELS)]
     pub(crate) tasks: Vec<TaskSpec>,
@@ -47,7 +47,7 @@ pub(crate) struct TaskArgs {
 /// Frames that a sample of a task reads.
 #[derive(Debug, Args)]
 pub(crate) struct WindowArgs {
-    /// Predict a sample of the task from N frames: its own and those before it in its cluster, and the changes between them [default: 1]
+    /// Predict a sample of the task from N frames: its own frame, earlier frames of its cluster, and the changes between these frames [default: 1]
     #[arg(long, value_name = "N", requires = "task")]
     pub(crate) window: Option<u32>,
     /// Number of frames from one frame of the window to the next [default: 1]

@@ -14,14 +14,14 @@ use crate::progress::spoken;
 
 /// Minimum duration of work whose cost is printed.
 const LONG: Duration = Duration::from_secs(5);
-/// Minimum number of written bytes of such work.
+/// Minimum number of written bytes of work whose cost is printed.
 const MUCH: u64 = 50_000_000;
 /// Number of pictures above which time is estimated.
 const MANY: usize = 200;
 /// Number of pictures that are read for an estimate.
 const TRIED: usize = 4;
 
-/// Prints the cost of `effort` on `dataset`, if it is large.
+/// Prints the cost of `effort` on `dataset`, if the cost is large.
 pub(super) fn print(effort: &Effort, dataset: &Dataset, cache: Option<&Cache>, context: &Context) {
     let time = time_of(&effort.rows, dataset, context.jobs.get());
     let kept = cache.map_or(0, |_| effort.kept_bytes);

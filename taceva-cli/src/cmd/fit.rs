@@ -195,7 +195,7 @@ fn left_out(fitted: &Fitted) -> FoldGroups {
     }
 }
 
-/// Name of one of the groups `by`.
+/// Name of a group of the kind `by`.
 fn in_words(by: &FoldGroups) -> String {
     match by {
         FoldGroups::Column(name) => format!("group of `{}`", shown(name)),

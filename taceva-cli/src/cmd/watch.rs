@@ -15,7 +15,7 @@ use super::{Context, Usage, open_seen};
 use crate::args::Watch;
 use crate::{exit, output};
 
-/// Force below which the gel is untouched, and above which it is touched, N. Pictures between them are not watched.
+/// Force below which the gel is untouched, and above which it is touched, N. Pictures with a force between both are not watched.
 const UNTOUCHED_N: f64 = 0.05;
 const TOUCHED_N: f64 = 0.1;
 /// Number of untouched pictures after a contact that are not watched: pictures arrive later than forces, and the gel recovers.
@@ -26,7 +26,7 @@ pub(crate) fn run(args: &Watch, context: &Context) -> anyhow::Result<u8> {
     let seen = |path: &PathBuf| open_seen(std::slice::from_ref(path), &args.view, Some(&model));
     let Some(path) = args.calibration.as_ref().or(args.recording.as_ref()) else {
         return Err(Usage::error(
-            "--calibration: expected the recording of the calibration, because a change is compared with the change by contact there",
+            "--calibration: expected the recording of the calibration, because a change is compared with the change by contact in that recording",
         ));
     };
     let calibration = seen(path)?;

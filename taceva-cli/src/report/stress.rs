@@ -10,7 +10,7 @@ use taceva_stress::{By, Estimate, FaultReport, NEVER, StressReport, Undefined};
 pub(crate) use self::numbers::numbers;
 use self::remarks::{missed_targets, reference_tests, unshown_skill};
 
-/// Table for readers with one row for each fault and severity: ratios of the error with the fault to the error without.
+/// Table for readers with one row for each fault and severity: ratios of the error with the fault to the error without the fault.
 pub(crate) fn table(report: &StressReport) -> Table {
     let channels = main_channels(&report.clean);
     let mut columns = vec![
@@ -203,7 +203,7 @@ fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> St
     line
 }
 
-/// Shown differences of the added error from that of the reference model; empty if none is shown.
+/// Shown differences of the added error from the added error of the reference model; empty if none is shown.
 fn verdicts(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> String {
     let sides = [("less", true), ("more", false)].into_iter();
     let words = sides.map(|(side, is_less)| {

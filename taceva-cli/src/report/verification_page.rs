@@ -109,7 +109,7 @@ fn claims(found: &Verification) -> Table {
         table.push(first.into_iter().chain(ticks).chain(last));
     }
     table.note(
-        "✓ the level gives the number; ✗ it gives another number; – it was not compared, or gives no answer.",
+        "✓ the level gives the number; ✗ the level gives another number; – the level was not compared, or gives no answer.",
     );
     table
 }

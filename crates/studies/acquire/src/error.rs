@@ -49,7 +49,7 @@ pub enum AcquireError {
     /// A device failed during setup or a check of a rig, or before a capture had stored a frame.
     #[error(transparent)]
     Device(#[from] DriverError),
-    /// A run stopped early. Every finished press is recorded, and the same study resumes from there.
+    /// A run stopped early. Finished presses are recorded. The same study resumes after these presses.
     #[error("study `{study}`: {source}", study = taceva_core::shown(study))]
     Acquisition {
         /// Name of the study.
@@ -126,7 +126,7 @@ pub enum AcquireError {
         /// Reason why the taps failed.
         source: TapError,
     },
-    /// The request names an item that the dataset or the model lacks.
+    /// The request cannot be fulfilled, or the operator stopped.
     #[error("{0}")]
     Request(String),
 }

@@ -68,7 +68,7 @@ fn accumulate_block(
     Ok(evaluator)
 }
 
-/// The plan restricted to fewer metrics. Its states can be merged with states of the whole plan.
+/// The plan restricted to `metrics`. Its states can be merged with states of the whole plan.
 ///
 /// # Errors
 /// [`EvaluateError::Scores`] for an unusable constant or setting.

@@ -1,9 +1,9 @@
 //! Exclusive claims on work that several processes may start. The processes may run on several machines that share a folder.
 //!
-//! A claim is a file that is created exclusively. This needs only exclusive creation and renaming; network file systems may lack `flock` and `fcntl`
-//! locks. While the owner lives, it writes a counter into the file. A waiting process checks with its own clock that the counter changes, so clocks
-//! are never compared. A dead owner on the same machine is detected by its process id. A lost claim only costs duplicate work: the result has the
-//! same bytes in any process.
+//! A claim is a file that is created exclusively. A claim needs only exclusive creation and renaming; network file systems may lack `flock` and
+//! `fcntl` locks. While the owner lives, it writes a counter into the file. A waiting process checks with its own clock that the counter changes, so
+//! clocks are never compared. A dead owner on the same machine is detected by its process id. A lost claim only costs duplicate work: the result has
+//! the same bytes in any process.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom, Write};

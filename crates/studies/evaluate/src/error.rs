@@ -79,7 +79,7 @@ pub enum EvaluateError {
         /// Description of the fault, and the expected content.
         problem: String,
     },
-    /// The request names something that the dataset or the model lacks.
+    /// The request cannot be fulfilled.
     #[error("{0}")]
     Request(String),
 }

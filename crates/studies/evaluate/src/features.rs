@@ -28,8 +28,8 @@ pub fn extractor(dataset: &Dataset, spec: FeatureSpec) -> Result<Extractor, Eval
     Ok(Extractor::new(spec, sight.info(), sight.reference())?)
 }
 
-/// Features of `rows`, in this order, from the cache or computed now. `extractor` returns the extractor for one recording. Each recording needs its own,
-/// because its contact-free reference differs.
+/// Features of `rows`, in this order, from the cache or computed now. `extractor` returns the extractor for one recording. Each recording needs its own
+/// extractor, because its contact-free reference differs.
 ///
 /// Returns `[rows, height, width, depth]`. Memory contains the features and a few frames for each worker. For joined recordings, it also contains the features
 /// of the longest run of rows of one recording.

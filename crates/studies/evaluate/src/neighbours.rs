@@ -60,7 +60,7 @@ pub(crate) fn pairs(dataset: &Dataset, rows: &[usize]) -> Vec<[usize; 2]> {
     Sequence::of(dataset, rows).pairs(1).collect()
 }
 
-/// Channel with the greatest resemblance of neighbours, with its ranks and its resemblance; `None` if no channel has any.
+/// Channel with the greatest resemblance of neighbours, with its ranks and its resemblance; `None` if no channel reaches the minimum.
 fn most_alike(
     dataset: &Dataset,
     rows: &[usize],
@@ -134,8 +134,8 @@ pub(crate) fn preference(name: &str) -> Option<usize> {
     GROUP_NAMES.iter().position(|known| name.contains(known))
 }
 
-/// Column whose values are groups of neighbours, if any. Several groups consist of consecutive rows. The last sample of a group does not resemble the
-/// first sample of the next group.
+/// Column whose values are groups of neighbours, if any: groups of consecutive rows, whose last sample does not resemble the first sample of the next
+/// group.
 fn group_column(
     dataset: &Dataset,
     rows: &[usize],

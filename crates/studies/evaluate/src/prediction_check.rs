@@ -29,7 +29,7 @@ pub enum PredictionCheck {
         /// Number of predicted samples.
         samples: usize,
     },
-    /// Labels are equal, and predictions differ no more than between instruction sets.
+    /// Labels are equal, and predictions differ only as between two instruction sets.
     Near {
         /// Greatest difference, as a share of the label range.
         share: f64,
@@ -174,7 +174,7 @@ pub(crate) fn part_named(name: &str) -> Result<DataPart, EvaluateError> {
     })
 }
 
-/// Rows of the table with a prediction of the model. The table contains every row.
+/// Rows of the table with a prediction of the model. The table also contains rows without a prediction.
 fn predicted_rows(model: &Model, samples: &Samples) -> Vec<usize> {
     let channels = model.channels().iter();
     let channels: Vec<SampleChannel<'_>> = channels

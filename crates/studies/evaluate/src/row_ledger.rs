@@ -14,7 +14,7 @@ pub struct Taken {
     input: String,
     /// Ranges of row numbers, counted from 0, end exclusive, ascending.
     rows: Vec<[usize; 2]>,
-    /// Number of rows of the input, if these are rows of a shard.
+    /// Number of rows of the input, if the counted rows are a shard.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     of: Option<usize>,
 }
@@ -61,12 +61,12 @@ impl Taken {
         .whole_or_not()
     }
 
-    /// True if these are rows of a shard.
+    /// True if the counted rows are a shard.
     pub(crate) fn is_of_shard(&self) -> bool {
         self.of.is_some()
     }
 
-    /// Number of counted rows, and number of rows of the input; `None` unless these are rows of a shard.
+    /// Number of counted rows, and number of rows of the input; `None` unless the counted rows are a shard.
     pub(crate) fn share(&self) -> Option<[usize; 2]> {
         // A forged state may end a range before its beginning.
         let counts = self

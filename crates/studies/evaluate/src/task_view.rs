@@ -31,7 +31,7 @@ pub(crate) fn window_of(settings: &ModelSettings) -> Result<Option<FrameWindow>,
 /// Note on the frames of each sample of `task`.
 pub(crate) fn in_words(window: FrameWindow, task: &Task) -> String {
     format!(
-        "each sample is predicted from {} with stride {} and their changes: its own and those before it in its `{}`",
+        "each sample is predicted from {} with stride {} and their changes: the frame of the sample and earlier frames of the same `{}`",
         counted(window.frames() as usize, "frame"),
         window.stride(),
         shown(&task.cluster)

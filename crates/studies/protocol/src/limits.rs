@@ -21,7 +21,8 @@ pub struct RigLimits {
     pub depth_max: Millimetre,
     /// Greatest normal force.
     pub normal_max: Newton,
-    /// Greatest shear force; by default the limit of the normal force, or the range of the transducer if that is smaller.
+    /// Greatest shear force; by default the smaller of the limit of the normal force and the range of the transducer. A simulated rig has only the
+    /// range by default.
     pub shear_max: Newton,
     /// Greatest force that the transducer measures; `None` if its descriptor states no force.
     pub saturation: Option<Newton>,
@@ -38,9 +39,10 @@ pub struct RigLimits {
 
 /// Travel of the tip after it passes a limit.
 ///
-/// A tip moves at v. Force is read every t_sample, sent in t_link and answered in t_react. Without segments, the tip travels on by v·(t_sample +
-/// t_link + t_react) + v²/2a. Therefore the tip moves in segments of length s = v·15 ms. After each segment it rests until force and pose are stamped
-/// later than the stop, so latency adds no travel. A link may delay a force until it counts as stale; the tip does not move meanwhile.
+/// A tip moves at v, and brakes with the deceleration a. Force is read every t_sample, sent in t_link and answered in t_react. Without segments, the
+/// tip travels on by v·(t_sample + t_link + t_react) + v²/2a. Therefore the tip moves in segments of length s = v·15 ms. After each segment it rests
+/// until force and pose are stamped later than the stop, so latency adds no travel. A link may delay a force until it counts as stale; the tip does
+/// not move meanwhile.
 ///
 /// - With healthy signals, a limit is exceeded by at most s + b + m.
 /// - A frozen force signal hides later segments, until [`FROZEN_READINGS`](crate::FROZEN_READINGS) = n equal readings halt the rig. The excess is then at most

@@ -103,7 +103,7 @@ pub struct Controls<'a> {
     pub cancel: &'a Cancel,
     /// Callback for events.
     pub events: &'a mut dyn FnMut(&Event),
-    /// Operator for manual steps. Without an operator, a plan that needs such a step stops there.
+    /// Operator for manual steps. Without an operator, a plan that needs such a step stops at the step.
     pub operator: Option<&'a mut dyn Operator>,
 }
 

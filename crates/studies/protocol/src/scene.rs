@@ -72,7 +72,7 @@ pub struct Scene {
     pub studies: Vec<Study>,
     /// Metrics and their settings.
     pub metrics: MetricsSpec,
-    /// Path of the rig file, relative to the scene, if it names one.
+    /// Path of the rig file, relative to the scene, if the scene names a rig file.
     pub rig: Option<Setting<String>>,
     /// Counts of presses by phase.
     pub protocol: Protocol,

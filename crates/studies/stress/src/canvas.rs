@@ -78,7 +78,7 @@ impl Canvas {
 pub(crate) struct Realisation {
     /// Parameter of the fault, above 0.
     pub(crate) parameter: f32,
-    /// Random numbers: drawn for each sample if the scope is [`Scope::Each`](crate::fault::Scope::Each), otherwise for the unit.
+    /// Random numbers: drawn for each sample if the scope is [`Scope::Each`](crate::fault::Scope::Each), otherwise once for the seed and the fault.
     pub(crate) draws: Draws,
 }
 

@@ -44,7 +44,7 @@ pub(crate) enum Effect {
     Growing(fn(&mut Canvas, &Realisation)),
     /// Changes the numbers of the picture at the places of markers.
     Markers(fn(&mut Canvas, &Realisation, &Markers)),
-    /// Replaces the picture by the previous one.
+    /// Replaces the picture by the previous picture.
     Before,
     /// Changes the labels, and no picture.
     Labels(LabelChange),
@@ -83,7 +83,7 @@ impl Fault {
         !self.is_of_labels() && !self.is_of_taxels() && !self.is_of_rows()
     }
 
-    /// Change of labels; `None` for a fault of pictures.
+    /// Change of labels; `None` for any other fault.
     pub(crate) fn label_change(&self) -> Option<LabelChange> {
         match self.effect {
             Effect::Labels(change) => Some(change),

@@ -28,7 +28,7 @@ pub(crate) struct Labels<'a> {
     pub(crate) draws: Draws,
 }
 
-/// For each row of `table`, the next row of the same contact, clock and unit, if it is later by at most [`STREAM_S`].
+/// For each row of `table`, the next row of the same contact, clock and unit, at most [`STREAM_S`] later.
 pub(crate) fn followers(table: &Table) -> Vec<Option<usize>> {
     let (units, tables) = (table.unit_id(), table.source_table());
     let (points, times) = (table.point_id(), table.t_s());

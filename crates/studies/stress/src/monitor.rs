@@ -31,7 +31,7 @@ const PATTERN: f64 = 0.1;
 const DETAIL: f64 = 0.05;
 /// Least stimulus of one line between successive pictures that counts as a change of lines.
 const LINES: f64 = 0.5;
-/// Stimulus of the baseline above which it differs from the reference. Flicker of a single reference picture is below it.
+/// Stimulus of the baseline above which it differs from the reference. Flicker of a single reference picture is below this stimulus.
 const REFERENCE: f64 = 1.0;
 /// Number of repeats among the newest pictures that counts as a change.
 const REPEATS: usize = 3;
@@ -40,9 +40,9 @@ const OUTSIDE: usize = 20;
 
 /// Monitor of a sensor in use.
 ///
-/// The mean of the first 50 untouched pictures is the baseline, and the next 200 set the limits. From then on a change is found if more than half of
-/// the newest 30 untouched pictures, or their mean brightness, exceed a limit. A change is also found if a line of three of them differs strongly
-/// from this line in the previous picture. Each kind of change is reported once. After its remedy, create a new monitor.
+/// The mean of the first 50 untouched pictures is the baseline, and the next 200 set the limits. From then on a change is found if at least 19 of the
+/// newest 30 untouched pictures, or their mean brightness, exceed a limit. A change is also found if a line of three of them differs strongly from
+/// this line in the previous picture. Each kind of change is reported once. After its remedy, create a new monitor.
 ///
 /// ```
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};

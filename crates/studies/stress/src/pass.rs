@@ -113,7 +113,7 @@ pub(crate) fn compares(model: &Model) -> bool {
     model.reads_features() && model.card().features.asks_for_reference().is_some()
 }
 
-/// A model with its features of the recording.
+/// A model with its feature extractor for the recording.
 pub(crate) struct Predictor<'a> {
     pub(crate) model: &'a Model,
     /// Extractor of the features without a fault; `None` for a model whose predictions depend on no feature.

@@ -78,8 +78,8 @@ impl Errors {
         (self.total - own.sum) / (self.count - own.count) as f64
     }
 
-    /// Mean over `cells` of their errors less these errors, summed by cluster; `None` if a cluster is unknown or has other samples in a cell, or if a sum is
-    /// not finite.
+    /// Mean over `cells` of their errors minus the errors of `self`, summed by cluster; `None` if a cluster is unknown or has other samples in a cell, or if
+    /// a sum is not finite.
     pub(crate) fn added_by(&self, cells: &[&Errors]) -> Option<ClusterSums> {
         let own = self.clusters.iter().flatten().enumerate();
         let sums = own.map(|(at, clean)| {

@@ -115,7 +115,7 @@ impl<'a> Excess<'a> {
         added.sum()
     }
 
-    /// The same sum without the cluster at `left`.
+    /// Sum as in `sum`, without the cluster at `left`.
     fn without(&self, left: usize) -> f64 {
         let clean = self.clean.mean_without(left);
         let added = self.cells.iter().map(|of| of.mean_without(left) - clean);

@@ -67,7 +67,7 @@ pub struct StressReport {
     pub notes: Vec<String>,
     /// Origin of the numbers.
     pub provenance: Provenance,
-    /// Model to whose errors `relative_error` and `difference` of each fault refer; `None` without one.
+    /// Model to whose errors `relative_error` and `difference` of each fault refer; `None` without a reference model.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reference: Option<ModelProvenance>,
     /// Scored rows, and their errors without a fault.
@@ -111,7 +111,7 @@ pub struct CellScore {
     pub skill: Estimate,
     /// Error divided by the error without the fault.
     pub degradation: Estimate,
-    /// The smaller one of the error and the error of the constant prediction; `None` if one of them is unknown.
+    /// The smaller of the error and the error of the constant prediction; `None` if one of them is unknown.
     pub capped: Option<f64>,
     /// Least and greatest degradation of a single draw; `None` for one draw.
     pub spread: Option<[f64; 2]>,
@@ -139,13 +139,13 @@ pub struct FaultReport {
     pub recovers: ByChannel<Estimate>,
     /// Least severity whose skill is no longer shown to be above 0; 6 if there is none, `None` if that is unknown.
     pub breaks_at: ByChannel<Option<u8>>,
-    /// Severity at which no channel has skill, if higher ones were left out for that reason. Means over severities are then lower bounds.
+    /// Severity at which no channel has skill, if higher severities were left out for that reason. Means over severities are then lower bounds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stopped_at: Option<u8>,
     /// Added error over all severities, divided by the added error of the reference model; `None` without a reference model.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relative_error: Option<ByChannel<Estimate>>,
-    /// Added error less that of the reference model, as means over the severities of both; `None` without a reference model.
+    /// Added error minus the added error of the reference model, as means over the severities of both; `None` without a reference model.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub difference: Option<ByChannel<ErrorDifference>>,
     /// Metrics of time without the fault; empty for a fault that leaves no rows out.

@@ -11,7 +11,7 @@ use taceva_results::Provenance;
 /// Samples of a recording that a model has not seen.
 pub(crate) struct Unseen {
     pub(crate) target: Target,
-    /// Samples with a picture, or with signals if the model reads those, ascending.
+    /// Samples with a picture, or with signals if the model reads signals, ascending.
     pub(crate) rows: Vec<usize>,
 }
 

@@ -21,7 +21,7 @@ pub(crate) struct Scale {
     pub(crate) is_reference: bool,
     /// Mean change by contact; `None` if it is unknown or zero.
     pub(crate) contact: Option<f64>,
-    /// Mean change from one picture to the next among those compared.
+    /// Mean change from one picture to the next among the compared pictures.
     pub(crate) successive: f64,
     /// Pictures with a great load.
     pub(crate) pressed: Vec<Frame>,
@@ -130,7 +130,7 @@ pub(crate) fn touches(dataset: &Dataset, rows: &[usize]) -> Option<Vec<Touch>> {
     Loads::of(dataset, rows).touches()
 }
 
-/// Row of the greatest load among `rows`; the last one if no load is known.
+/// Row of the greatest load among `rows`; the last row if no load is known.
 pub(crate) fn most_loaded(dataset: &Dataset, rows: &[usize]) -> Option<usize> {
     let loads = Loads::of(dataset, rows).rows.into_iter();
     let most = loads.max_by(|one, other| one.load.total_cmp(&other.load));

@@ -28,7 +28,7 @@ pub(crate) struct Scorer<'a> {
     width: usize,
     truth: Vec<Column>,
     groups: Option<&'a [String]>,
-    /// Cluster of each row, if every row has one.
+    /// Cluster of each row, if every row has a cluster.
     clusters: Option<Vec<String>>,
     jobs: NonZeroUsize,
 }
@@ -362,7 +362,7 @@ pub(crate) fn degradation<'s>(
     mean_degradation(name, [cells.into_iter().collect()], baseline)
 }
 
-/// Mean over faults of the mean degradation over the cells of each. Faults without a cell do not count.
+/// Mean over faults of the mean degradation over the cells of each fault. Faults without a cell do not count.
 pub(crate) fn mean_degradation<'s>(
     name: &str,
     faults: impl IntoIterator<Item = Vec<&'s Scored>>,

@@ -22,7 +22,7 @@ use crate::times::is_stream;
 const OF_PICTURES: &str = "the model reads signals, and the fault changes pictures";
 /// Reason to skip a fault that is a share of the change of signals by contact.
 const NO_CONTACT: &str = "the change by contact is unknown: expected rows without contact or labels of Fz or Pz, and samples of contact whose signals differ";
-/// Minimum number of markers for their loss. Fewer spots would fit into any grid.
+/// Minimum number of markers for a fault of markers. Fewer spots would fit into any grid.
 const LEAST_MARKERS: usize = 9;
 
 /// Choice of faults and samples.
@@ -195,7 +195,7 @@ impl Setup {
         kinds.into_iter().flatten().copied().collect()
     }
 
-    /// Change of signals by contact; `None` for a model of pictures. Without a change, a fault that is a share of it is skipped.
+    /// Change of signals by contact; `None` for a model of pictures. If the change is unknown, faults that grow with time are skipped.
     pub(crate) fn taxels(
         &mut self,
         dataset: &Dataset,

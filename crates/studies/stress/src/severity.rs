@@ -25,7 +25,7 @@ const STEPS: usize = 28;
 const MIDDLE: f64 = 0.5;
 /// Number of lines over which the stimulus is averaged, for a fault that is drawn for each picture.
 const LINES: u32 = 512;
-/// Maximum number of pictures over which the stimulus of such a fault is averaged.
+/// Maximum number of pictures over which the stimulus is averaged, for a fault that is drawn for each picture.
 const DRAWN: u32 = 32;
 
 /// Quantity that sets severity.
@@ -55,7 +55,7 @@ pub struct Unreached {
     pub target: f64,
     /// Greatest stimulus of the fault, or the stimulus of the next possible parameter.
     pub most: f64,
-    /// Parameter of that stimulus.
+    /// Parameter that gives the stimulus `most`.
     pub parameter: f64,
 }
 

@@ -42,7 +42,7 @@ enum Rule {
 struct Outcome {
     points: usize,
     looks: u32,
-    /// Mean absolute error / true one.
+    /// Mean absolute error divided by its true value.
     ratio: f64,
     width: f64,
     is_held: bool,
@@ -128,7 +128,7 @@ fn outcome(run: u32, rule: Rule, width: f64) -> Outcome {
     }
 }
 
-/// Number of points that the pilot `errors` predicts for `width`, at least its own.
+/// Number of points that the pilot `errors` predicts for `width`, at least the points of the pilot.
 fn predicted(errors: &[[f64; PRESSES]], width: f64) -> usize {
     let mut report = EvaluationReport::of_arrays(&evaluated(errors));
     let mut table = "sample,point_id,Fz,Fz_predicted\n".to_owned();

@@ -110,8 +110,8 @@ impl ScoredWidth {
         self.ratio - 1.0
     }
 
-    /// Expected width with the points `tested`; `None` if they are too few for an interval. Infinitely many samples of each point give the
-    /// width that further presses at the same places cannot go below.
+    /// Expected width with the points `tested`; `None` if they are too few for an interval. Infinitely many samples of each point give the lower
+    /// limit of the width for further presses at the same places.
     ///
     /// The interval is symmetric on a logarithm. Its standard error is that of a mean of points with variance s_b² + s_w²/m, for m samples of
     /// each. Unequal clusters leave ν < g − 1 degrees of freedom of g clusters: 1/ν − 1/(g − 1) is inversely proportional to the points.

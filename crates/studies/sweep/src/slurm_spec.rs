@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Resources that Slurm jobs request. For a `None`, the site's default applies.
+/// Resources that Slurm jobs request. `None` leaves the default of the site.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SlurmSpec {

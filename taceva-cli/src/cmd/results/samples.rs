@@ -75,7 +75,7 @@ fn digest(study: &Study) -> Option<&str> {
     provenance.find_map(|(name, text)| (name == "samples_table").then_some(text.as_str()))
 }
 
-/// Paths of the recordings of study `number` of a run, counted from 1; empty if the run has none.
+/// Path of the recording of study `number` of a run, counted from 1, the first by name if there are several; empty if the run has none.
 pub(super) fn recordings_of_run(file: &Path, number: u32) -> anyhow::Result<Vec<PathBuf>> {
     let recordings = file.with_file_name(RECORDINGS);
     let is_run = file.file_name().is_some_and(|name| name == RESULTS);

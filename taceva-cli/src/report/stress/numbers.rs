@@ -148,7 +148,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Findings of the checks of pictures, and the errors that they do not notice.
+    /// Findings of the checks of pictures, and the errors that these checks do not notice.
     fn push_check(&mut self, fault: &FaultReport, of: &SeverityReport) {
         let place = Place {
             fault: &fault.id,

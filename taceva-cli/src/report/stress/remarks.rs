@@ -7,7 +7,7 @@ use taceva_stress::{By, Estimate, StressReport, TARGETS};
 
 use super::{phrase, short};
 
-/// Remark on skill without a fault whose interval includes 0, although more tested samples may show it.
+/// Remark on skill without a fault whose interval includes 0, although more tested samples may show skill.
 pub(super) fn unshown_skill<'a>(
     samples: usize,
     skills: impl Iterator<Item = (&'a str, Estimate)>,

@@ -32,7 +32,8 @@ const FIRST: Duration = Duration::from_secs(5);
 pub struct LiveSpec {
     sensor: Named,
     force: Option<Named>,
-    /// Axes of the transducer that correspond to the axes of the sensor, if the rig file names the transducer.
+    /// Axes of the transducer that correspond to the axes of the sensor, if the rig file names the transducer. `None` for any other transducer, and
+    /// without one.
     axes: Option<SignedAxes>,
     is_emulated: bool,
 }
@@ -110,7 +111,7 @@ impl LiveSpec {
         &self.sensor.selector
     }
 
-    /// Axes of the transducer in the rig file; `None` for a transducer that an option names.
+    /// Axes of the transducer in the rig file; `None` for a transducer that an option names, and without a transducer.
     pub fn force_axes(&self) -> Option<SignedAxes> {
         self.axes
     }

@@ -16,7 +16,7 @@ use super::prediction::Prediction;
 use super::prediction_table::PredictionTable;
 use crate::error::AcquireError;
 
-/// Interval between checks if the thread must end.
+/// Interval between checks for the end of the thread.
 const LOOK: Duration = Duration::from_millis(50);
 
 /// Counts of the frames that a predictor received.
@@ -42,7 +42,7 @@ type Heard<'a> = &'a (dyn Fn(&Frame, &Prediction, &PredictionCounts) + Sync);
 pub struct LivePredictor<'a> {
     model: &'a LiveModel,
     heard: Heard<'a>,
-    /// Feature extractor. If the model needs a reference frame, it is created when this frame is available.
+    /// Feature extractor, created when the format of frames and any reference frame are known.
     extractor: OnceLock<Extractor>,
     offered: Mutex<Offered>,
     /// Notified when a frame arrives, when a frame is taken for prediction, and at the end.

@@ -6,7 +6,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use taceva_core::Wrench;
 use taceva_protocol::wrench_between;
 
-/// Age at which readings are removed, in s. Every frame arrives earlier.
+/// Age at which readings are removed, in s. Every frame arrives before its readings have this age.
 const KEPT_S: f64 = 5.0;
 /// Maximum gap between readings for interpolation, in periods. A gap of up to [`GAP_S`] is always allowed, because pauses
 /// of threads are not losses of the device.

@@ -135,7 +135,7 @@ impl Transducer {
     }
 }
 
-/// Counts of the readings that differ from the previous reading.
+/// Counts of the readings that differ from the previous reading, and of the readings that equal the previous reading.
 #[derive(Clone, Copy, Debug, Default)]
 struct Habit {
     changed: u32,

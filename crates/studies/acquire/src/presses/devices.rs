@@ -314,7 +314,7 @@ impl OpenRig {
     }
 }
 
-/// Name of the robot of `rig` that the operator must enable; `None` if the robot is emulated or already enabled.
+/// Driver key of the robot of `rig` that the operator must enable; `None` if the robot is emulated or already enabled.
 pub(super) fn to_be_enabled(rig: &RigFile, is_enabled: bool) -> Option<&str> {
     let robot = rig.robot.as_ref();
     let named = robot.filter(|_| !rig.simulated && !is_enabled);
@@ -352,7 +352,7 @@ impl RigSpec {
             .any(|source| source == DriverSource::Simulated)
     }
 
-    /// True if all devices are simulated. They can then be opened safely only to read facts.
+    /// True if all devices are simulated. Opening simulated devices to read facts has no effect on a real device.
     pub(crate) fn is_only_simulated(&self, drivers: &Drivers) -> bool {
         self.sources(drivers)
             .all(|source| source == DriverSource::Simulated)

@@ -5,7 +5,8 @@
 //! cancellation. Both threads halt through the supervisor, which makes all decisions.
 //!
 //! The threads have the priority of the process. On a busy machine, a thread may wait for a tenth of a second. `chrt -f 10 taceva run …` reduces this wait to
-//! milliseconds. A turn or a halt that took too long is printed with its cause, and so are the counts of a session at its end.
+//! milliseconds. A turn is one reading by a thread. A turn or a halt that took too long is printed with its cause, and so are the counts of a session at its
+//! end.
 
 mod causes;
 mod halt_counts;

@@ -21,7 +21,7 @@ pub(super) struct RecordedPresses {
     recorder: Recorder,
     /// Recorded presses that will be repeated.
     relived: BTreeSet<ContentId>,
-    /// Row number of each sample of these presses, by sample name.
+    /// Row number of each sample of the presses to repeat, by sample name.
     rows: BTreeMap<String, usize>,
     sessions: SessionTable,
     /// Reduction of frames before they are recorded; `None` to record full frames.

@@ -1,4 +1,4 @@
-//! Manual and automatic changes on a real rig, other than the presses of a unit.
+//! Manual and automatic changes of units, specimens and light on a real rig.
 
 use std::collections::BTreeSet;
 use std::sync::PoisonError;
@@ -280,7 +280,8 @@ pub(super) fn stopped(plan: &Plan, error: RunError) -> AcquireError {
     }
 }
 
-/// Number of skipped presses, if these are the whole content of `error`. Returns any other error. Later units are pressed in either case.
+/// Number of skipped presses, if these are the whole content of `error`. Returns any other error. Skipped presses do not keep later units from being
+/// pressed.
 pub(super) fn presses_skipped(error: AcquireError) -> Result<usize, AcquireError> {
     match &error {
         AcquireError::Acquisition { source, .. } => match source.cause {

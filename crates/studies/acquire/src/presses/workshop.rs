@@ -13,7 +13,7 @@ use crate::viewer::Viewer;
 pub struct Surroundings {
     /// Clock that stamps the samples of the devices.
     pub clock: Box<dyn Timekeeper>,
-    /// Changer of specimens; `None` if all presses use a single specimen.
+    /// Changer of specimens; `None` if the operator or nobody changes specimens.
     pub specimens: Option<Box<dyn SpecimenChanger>>,
     /// Callback for each press, called before the tip moves to the place of the press; `None` for no callback.
     pub upcoming: Option<Box<dyn FnMut(Upcoming)>>,

@@ -5,7 +5,7 @@ use std::time::Duration;
 use taceva_core::{DriverError, EnablingSwitch};
 use taceva_drivers::MonotonicClock;
 
-/// Interval between readings, equal to that in a run.
+/// Interval between readings.
 const LOOK: Duration = Duration::from_millis(10);
 
 /// Statistics of an enabling switch that is read every 10 ms.

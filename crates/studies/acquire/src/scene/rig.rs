@@ -81,7 +81,7 @@ impl RigSpec {
         RigSpec { load_kn, ..self }
     }
 
-    /// The same devices with `fault` of `severity` of the simulated gel.
+    /// The same devices with a simulated gel that has `fault` at `severity`.
     pub(crate) fn worn(&self, fault: &str, severity: u8) -> RigSpec {
         let worn = |selector: String| {
             let separator = if selector.contains(':') { ';' } else { ':' };

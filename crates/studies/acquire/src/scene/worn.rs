@@ -7,7 +7,7 @@ use taceva_drivers::Drivers;
 use super::{PlannedStudy, StudySource};
 
 impl PlannedStudy {
-    /// The study with `fault` of `severity` of its simulated gel, and with only the planned presses whose ids are in `presses`. `None` for a
+    /// The study with a simulated gel that has `fault` at `severity`, and with only the planned presses whose ids are in `presses`. `None` for a
     /// recording, for real devices, and for a sensor without this fault.
     pub fn worn(
         &self,

@@ -49,7 +49,7 @@ impl CacheEntry {
 pub struct Pruning {
     /// Stages whose results are removed; empty for all stages.
     pub stages: Vec<CachedStage>,
-    /// Age limit, if any. Entries that were not used for longer than this are removed.
+    /// Age limit, if any. Entries that were not used for a longer time are removed.
     pub older_than: Option<Duration>,
     /// Size limit in bytes, if any. The least recently used entries are removed until the total is at most this limit.
     pub keep: Option<u64>,
@@ -150,7 +150,7 @@ fn is_shared(facts: &Metadata) -> bool {
     links > 1
 }
 
-/// Entries that `pruning` removes at the time `now`. Entries that are too old come first, followed by those beyond the size limit.
+/// Entries that `pruning` removes at the time `now`. Entries that are too old come first, followed by entries beyond the size limit.
 ///
 /// Partial entries are removed, whatever the rules, if they are so old that no run can still be writing them.
 pub fn pruned<'a>(

@@ -18,7 +18,7 @@ pub(super) struct InCluster<'a> {
     pub(super) name: &'a str,
     /// Number of the cluster.
     number: usize,
-    /// Number of rows of the cluster before this one.
+    /// Number of rows of the cluster before this row.
     pub(super) place: u32,
 }
 
@@ -31,7 +31,7 @@ pub(super) struct Unseen<'p, 'a> {
 }
 
 impl Unseen<'_, '_> {
-    /// Truth and prediction of `channel`; `None` without both.
+    /// Truth and prediction of `channel`; `None` unless both are known.
     pub(super) fn pair(&self, channel: &str) -> Option<[f64; 2]> {
         let position = self.predicted.channels().position(channel)?;
         let number = |columns: &[Column]| columns.get(position)?.get(self.at);

@@ -39,7 +39,7 @@ impl Cells {
     /// Mean of the valid depths of each cell. A cell without a valid depth gets the mean of all valid depths. `None` for a map without a valid pixel.
     ///
     /// # Shapes
-    /// `mm`: all pixels, row by row, NaN for an invalid one. Returns the cells row by row.
+    /// `mm`: all pixels, row by row, NaN for an invalid pixel. Returns the cells row by row.
     pub(super) fn means(self, mm: &[f64]) -> Option<Vec<f64>> {
         let ([rows, columns], [down, across]) = (self.pixels, self.grid);
         let mut sums = vec![0.0_f64; self.count()];

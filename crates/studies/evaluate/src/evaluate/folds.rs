@@ -42,7 +42,7 @@ struct Fold {
     divided: Divided,
 }
 
-/// Folds that `request` names, or the default folds for few groups. `None` if `request` names a part, or a split with a single division.
+/// Folds that `request` names, or the default folds for few groups. `None` for a single division, and for a `part` without a split.
 ///
 /// # Errors
 /// [`EvaluateError::Split`] if there is only one recording, if there are fewer groups than folds, or if the split is invalid.
@@ -205,7 +205,7 @@ impl<'a> Folds<'a> {
         }
     }
 
-    /// Adds the fit to the plan. It is added once for all folds.
+    /// Adds the step that leaves out each fold to the plan.
     pub(super) fn explain(&self, plan: &mut Plan) {
         let count = self.folds.len();
         let what = match self.are_recordings {

@@ -23,7 +23,7 @@ use crate::work::Work;
 /// Maximum number of folds of the default division.
 pub(super) const MOST_FOLDS: usize = 5;
 
-/// Division that keeps each cluster of `task` whole: five folds, or one fold for each cluster if there are fewer.
+/// Division that keeps each cluster of `task` whole: five folds, or one fold for each cluster if there are fewer than five.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for fewer than two clusters.

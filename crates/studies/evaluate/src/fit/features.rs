@@ -95,7 +95,7 @@ impl FitPlan<'_> {
         self.losses(&model, &left_out, parts)
     }
 
-    /// Leaves out every third contact point or group. If there are too few points, leaves out the last third of the samples.
+    /// Leaves out every third contact point or group. If too few points or groups are known, leaves out the last third of the samples.
     fn parts(&self) -> Result<Parts, EvaluateError> {
         let samples = self.train.len();
         if samples < RUNS * LEFT_OUT_OF {

@@ -44,7 +44,7 @@ fn likely_unit(line: &Score) -> Option<Note> {
     })
 }
 
-/// Range of the truth, which is full scale; NaN if all predictions lie on the line. `None` without these numbers.
+/// Range of the truth, which is full scale; NaN if all predictions lie on the line. `None` without a linearity and its greatest deviation.
 fn range_of_truth(line: &Score) -> Option<f64> {
     let greatest = line.variant("greatest_deviation")?.value.number()?;
     Some(greatest / line.value.number()?)

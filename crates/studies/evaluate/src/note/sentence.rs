@@ -7,7 +7,7 @@ use taceva_results::OPTIMISTIC;
 
 use super::{Independence, Learning, Note, division};
 
-/// Number of recordings below which the note states the number. With few degrees of freedom, Student's t widens the interval.
+/// Number of recordings below which the note states their number, because Student's t then widens the interval.
 const CLUSTERS_MANY: usize = 10;
 
 impl fmt::Display for Note {

@@ -7,7 +7,7 @@ use taceva_models::Model;
 use crate::error::EvaluateError;
 use crate::rows::{DataPart, Divided, Need, require_samples, usable};
 
-/// Rejects frames of a view other than the view of the model, because the predictions would look plausible.
+/// Rejects frames of a view other than the view of the model, because wrong predictions would look plausible.
 fn check_view(dataset: &Dataset, model: &Model) -> Result<(), EvaluateError> {
     let fitted_on = model.card().provenance.view.as_deref();
     match (fitted_on, dataset.view()) {

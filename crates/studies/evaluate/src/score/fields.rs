@@ -115,7 +115,7 @@ pub(super) fn labels(
 /// Numbers in some rows of a column of counts or spacings. An empty cell is undefined.
 ///
 /// # Errors
-/// [`EvaluateError`] with the cell if it is neither a nonnegative whole number nor a length.
+/// [`EvaluateError`] with the cell if it is not a nonnegative whole number, or not a length in a column of spacings.
 pub(super) fn exact_numbers(
     table: &CsvTable,
     field: Field,

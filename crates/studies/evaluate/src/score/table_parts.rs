@@ -22,7 +22,7 @@ pub(super) struct TableParts {
     stamp: Stamp,
     digest: Digest,
     rows: u64,
-    /// Row positions in a CSV file; `None` for a Parquet file, which contains its own.
+    /// Row positions in a CSV file; `None` for a Parquet file, which contains its own row positions.
     csv: Option<CsvParts>,
 }
 
@@ -143,7 +143,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Restricts the reader to the columns that `is_wanted` selects, if the table is Parquet. This saves time.
+    /// Restricts the reader to the columns that `is_wanted` selects, if the table is Parquet, to save time.
     pub(super) fn with_columns(self, is_wanted: impl Fn(&str) -> bool) -> Self {
         match self {
             Reader::Parquet(table, mut names) => {

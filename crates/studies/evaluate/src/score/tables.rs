@@ -207,10 +207,11 @@ pub(super) fn is_declared(request: &ScoreRequest, name: &str) -> bool {
     units.chain(periods).any(|known| known == name)
 }
 
-/// Pairs the rows by the first of `keys` that pairs all rows, otherwise by order. Also returns this key.
+/// Pairs the rows by the first of `keys` that pairs all rows, or by order if there are no keys. Also returns this key.
 ///
 /// # Errors
-/// [`EvaluateError::Tables`] for a key that is empty, repeats, or is in only one table. Without a key, for different numbers of rows.
+/// [`EvaluateError::Tables`] of the first key if none pairs all rows: a value is empty, repeats, or is in only one table. Without keys, for different
+/// numbers of rows.
 pub(super) fn pair<'a>(
     truth: &CsvTable,
     prediction: &CsvTable,

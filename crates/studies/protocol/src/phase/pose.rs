@@ -10,7 +10,8 @@ use crate::scene::spacing_of;
 
 /// Two presses for each pair. The repeat of a press is its number, so the presses 2 n and 2 n + 1 are a pair.
 ///
-/// Places are at most half of the greatest shift from the centre, and turns are between 0 and the greatest turn. A change is at most the greatest.
+/// Places are at most half of the greatest shift from the centre, and turns are between 0 and the greatest turn. A pair then differs by at most the
+/// greatest shift and the greatest turn.
 pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     let draws = inputs.draws(PhaseKind::Pose);
     let spec = &inputs.protocol.pose;

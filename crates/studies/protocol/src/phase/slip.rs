@@ -9,7 +9,7 @@ use crate::press::{Motion, Press, Waypoint};
 /// Directions of a stroke along x and y.
 const DIRECTIONS: [[i64; 2]; 4] = [[1, 0], [0, 1], [-1, 0], [0, -1]];
 
-/// One press for each stroke: all waypoints at one depth, further along one direction by the distance of two frames.
+/// One press for each stroke: all waypoints at one depth, each further along one direction by the distance between two frames.
 pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     let draws = inputs.draws(PhaseKind::Slip);
     let spec = &inputs.protocol.slip;

@@ -82,7 +82,7 @@ impl fmt::Display for Plan {
 const SKILL: &str = "skill";
 
 impl Plan {
-    /// True if the model skill is added because a metric or a contact shape reads predictions.
+    /// True if the skill is added because a metric or a contact shape reads predictions.
     fn adds_skill(&self) -> bool {
         let reads = |metric: &PlannedMetric| metric.fields.contains(Field::Prediction);
         let is_predicted =

@@ -211,8 +211,8 @@ impl<'a> Gather<'a> {
         })
     }
 
-    /// Size of stored frames, if frames of the sensor can be reduced to it. If the sensor does not state its frame size, the check follows after the sensor is
-    /// opened.
+    /// Size of stored frames, if the scene states a size. Rejects a size greater than the frames of the sensor. If the sensor does not state its frame size,
+    /// the check follows after the sensor is opened.
     fn kept_frames(&self, frame: Option<FrameInfo>) -> Result<Option<FrameSize>, SceneError> {
         let Some(kept) = self.study.frames else {
             return Ok(None);

@@ -39,7 +39,7 @@ pub struct PlannedWear {
     pub cycles: u32,
     /// Number of presses on the gel before the measured presses, if every planned press is made.
     pub presses_since_gel: u32,
-    /// Time of the cycles, in minutes. The cost of the plan includes it.
+    /// Time of the cycles, in minutes. The cost of the plan includes this time.
     pub minutes: f64,
 }
 

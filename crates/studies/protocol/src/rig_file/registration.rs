@@ -6,7 +6,7 @@ use super::{Carried, RigRobot, SignedAxes};
 
 /// Place and rotation of the robot base frame relative to the sensor frame.
 ///
-/// Let A be the rotation from base to sensor by `axes`, o the `origin_mm`, and Q the tool rotation since registration:
+/// Let A be the rotation from base to sensor by `axes`, o the `origin_mm`, p the reported position, and Q the tool rotation since registration:
 ///
 /// - If the robot carries the indenter, the tip is at A·(p − o), rotated by A·Q·Aᵀ.
 /// - If it carries the sensor, the tip rests at o in the base frame. It is at A·Qᵀ·(o − p), rotated by A·Qᵀ·Aᵀ.

@@ -40,7 +40,7 @@ impl<'a> Camera<'a> {
         self.freeze.leave();
     }
 
-    /// First frame captured at or after `from_s`. Fails if the frame is equal to the previous one although the force changed.
+    /// First frame captured at or after `from_s`. Fails if the frame is equal to the previous frame although the force changed.
     pub(super) fn frame(
         &mut self,
         from_s: f64,

@@ -14,7 +14,7 @@ pub struct Devices<'a> {
     pub sensor: Option<&'a mut dyn Sensor>,
     /// Lighting; `None` if the sensor sets the light.
     pub lighting: Option<&'a mut dyn Lighting>,
-    /// Changer of specimens; `None` if the whole run uses one specimen.
+    /// Changer of specimens; `None` if the operator or nobody changes specimens.
     pub specimens: Option<&'a mut dyn SpecimenChanger>,
 }
 

@@ -47,8 +47,8 @@ impl Tip<'_> {
         }
     }
 
-    /// Error that ends a run, after the tip was raised above the gel. The tip moves only while the enabling switch is held. After each release, the wait and
-    /// the attempt are repeated.
+    /// Error that ends a run, after the tip was raised above the gel if possible. The tip moves only while the enabling switch is held. After each release,
+    /// the wait and the attempt are repeated.
     pub(super) fn abandoned(&mut self, cause: StopCause, mut attendant: Attendant<'_>) -> RunError {
         if let StopCause::Tripped(trip) = cause {
             (attendant.events)(&Event::Halted(trip));

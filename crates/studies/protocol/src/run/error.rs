@@ -57,7 +57,7 @@ pub enum StopCause {
         /// Last error of the sensor; `None` if it returned only outdated frames.
         last: Option<String>,
     },
-    /// A frame is bit-equal to the previous one although the force changed.
+    /// A frame is bit-equal to the previous frame although the force changed.
     #[error(
         "frames equal earlier frames bit for bit although the force changed: the camera is frozen; restart it, check it with `taceva preview`, and continue with `--resume`"
     )]

@@ -37,7 +37,7 @@ pub enum Event {
     },
     /// A frame was lost, damaged or stamped by another clock, so another frame is captured. A frame captured before the contact is replaced without this event.
     FrameRetried,
-    /// A frame was bit-equal to the previous one although the force changed. Its press is aborted.
+    /// A frame was bit-equal to the previous frame although the force changed. Its press is aborted.
     FrameFrozen,
     /// The zero of the transducer changed too far during a press. The press is discarded.
     ZeroStepped(ZeroStep),
@@ -54,7 +54,7 @@ pub enum Event {
     Retracted,
     /// The enabling switch is not held. Nothing moves until the operator holds it.
     Unheld,
-    /// Stale signals, a changed zero of the force or a released enabling switch ended a press early. It is repeated from its start.
+    /// Stale signals, a changed zero of the force or a released enabling switch ended a press early. The press is repeated from its start.
     Redone {
         /// Id of the press.
         press: ContentId,

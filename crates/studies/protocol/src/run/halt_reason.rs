@@ -13,7 +13,7 @@ use taceva_core::Limit;
 pub enum Trip {
     /// The depth exceeds its limit.
     Depth {
-        /// Depth measured from the first contact.
+        /// Depth measured from the zero of the press.
         depth_mm: f64,
         /// Greatest allowed depth.
         limit_mm: f64,

@@ -38,7 +38,7 @@ impl Tip<'_> {
         Ok(())
     }
 
-    /// Descends by segments, each followed by a reading, until the normal force is at least `force_n`. At the greatest depth, it halts.
+    /// Descends by segments, each followed by a reading, until the normal force is at least `force_n`. At the greatest depth, the tip halts.
     fn press_until(&mut self, force_n: f64, contact_mm: f64) -> Step<()> {
         let segment_mm = self.pace.segment_mm;
         let limit_mm = self.pace.bearing.depth_max_mm;

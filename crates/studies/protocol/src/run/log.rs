@@ -1,4 +1,4 @@
-//! Log of finished presses, which stores new ones safely.
+//! Log of finished presses, which stores new presses safely.
 
 use taceva_core::{Frame, PressOutcome, Sample, SinkError};
 

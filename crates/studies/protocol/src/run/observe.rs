@@ -15,7 +15,7 @@ pub(super) struct Observed {
     pub(super) frame: Option<Frame>,
 }
 
-/// Observes the state after `before`. Reads force and pose before and after the frame, and interpolates them to its time.
+/// Observes the state after `before`. Reads force and pose before and after the frame, and interpolates both to the time of the frame.
 pub(super) fn observe(
     before: Look,
     tip: &mut Tip<'_>,

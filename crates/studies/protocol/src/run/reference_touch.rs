@@ -27,7 +27,7 @@ pub struct ReferenceTouch {
     pub specimen: Specimen,
     /// Height of the gel in the sensor frame, in mm, positive into the gel.
     pub height_mm: f64,
-    /// Depth of the touch below that height, in mm.
+    /// Depth of the touch below the height of the gel, in mm.
     pub depth_mm: f64,
     /// Normal force at depth `depth_mm`, in N.
     pub force_n: f64,
@@ -124,14 +124,14 @@ pub enum TouchFault {
     Unseen {
         /// Greatest change of a part of the frame in contact, in steps of an 8-bit pixel.
         in_contact: f64,
-        /// Greatest change in the air, in the same steps.
+        /// Greatest change in the air, in steps of an 8-bit pixel.
         in_air: f64,
     },
     /// The frames remain changed after the tip has left the gel.
     Stays {
         /// Greatest change of a part of the frame in contact, in steps of an 8-bit pixel.
         in_contact: f64,
-        /// Greatest change after contact, in the same steps.
+        /// Greatest change after contact, in steps of an 8-bit pixel.
         after: f64,
     },
 }

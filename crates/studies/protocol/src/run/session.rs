@@ -47,7 +47,7 @@ pub(super) struct Run<'a> {
 
 /// Number of interruptions of one press by stale signals that end the run.
 const SILENCES_OF_A_PRESS: u32 = 3;
-/// Number of interruptions of a run by stale signals that end it.
+/// Number of interruptions of a run by stale signals that end the run.
 const SILENCES_OF_A_RUN: u32 = 20;
 /// Weight of an interruption; late signals of emulated devices weigh 1.
 pub(super) const WHOLE: u32 = 10;

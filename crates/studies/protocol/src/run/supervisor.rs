@@ -79,7 +79,7 @@ pub struct Supervisor {
     seen: Option<Pose>,
     /// Last force and its time in s, for the rate; `None` before the first force.
     last: Option<(Wrench, f64)>,
-    /// Time of the last force, in s; before the first, the start time of the stage.
+    /// Time of the last force, in s; before the first force, the start time of the stage.
     heard_s: f64,
     repeats: Repeats,
     tripped: Option<Trip>,

@@ -1,8 +1,8 @@
 //! Fit of the height of the gel to readings of force before and after the first contact.
 //!
-//! Above z₀ the force is b, below it b + c·(z − z₀)^p. Neither b, c, p nor the noise is known. The fit weighs every z₀ and p by the residuals
-//! that the best b and c leave (the posterior under a flat prior of b, c and the logarithm of the noise). Only sums, products and roots are
-//! computed, so that every machine finds the same bits.
+//! Above the height z₀ of the gel, the force is b. Below z₀, at the height z, the force is b + c·(z − z₀)^p. Neither b, c, p nor the noise is known.
+//! The fit weighs every z₀ and p by the residuals that the best b and c leave (the posterior under a flat prior of b, c and the logarithm of the
+//! noise). Only sums, products and roots are computed, so that every machine finds the same bits.
 
 use super::depth_zero::ZeroUnknown;
 

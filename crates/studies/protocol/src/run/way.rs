@@ -41,7 +41,7 @@ pub(super) fn distance_from_way(tip: &Pose, from: &Pose, to: &Pose) -> f64 {
     distance(tip, &part_way(from, to, part))
 }
 
-/// Assumed pose of a tip. Along each axis, it is `sent` if `seen` is within `slack_mm` of it, otherwise `seen`.
+/// Assumed pose of a tip. Each coordinate is that of `sent` if `seen` differs by less than `slack_mm`, otherwise that of `seen`.
 pub(super) fn settled(seen: &Pose, sent: &Pose, slack_mm: f64) -> Pose {
     let settle = |seen: Millimetre, sent: Millimetre| {
         let is_there = (seen.0 - sent.0).abs() < slack_mm;
@@ -80,7 +80,7 @@ pub(super) fn is_straight_down(from: &Pose, to: &Pose) -> bool {
     aside_mm <= ASIDE_PART * (end.z.0 - start.z.0)
 }
 
-/// Pose at the fraction `part` of the way between two poses, with the rotation of the second.
+/// Pose at the fraction `part` of the way between two poses, with the rotation of the second pose.
 pub(super) fn part_way(from: &Pose, to: &Pose, part: f64) -> Pose {
     let mix = |from: Millimetre, to: Millimetre| Millimetre(from.0 + (to.0 - from.0) * part);
     let (start, end) = (&from.position, &to.position);

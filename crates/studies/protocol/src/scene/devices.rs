@@ -19,7 +19,7 @@ pub struct DeviceSpec {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table with `driver` or `scenes`")]
 pub struct LightingSpec {
-    /// Selector of the lighting device. Without one, the sensor sets the light; if it cannot, the operator does.
+    /// Selector of the lighting device. Without a lighting device, the sensor sets the light, or otherwise the operator.
     pub driver: Option<Setting<String>>,
     /// Light scenes to use, the calibration scene first. The default is all scenes of the driver. Required if the operator sets the light.
     pub scenes: Option<Setting<Vec<String>>>,

@@ -128,7 +128,7 @@ pub enum SceneProblem {
         found: FrameSize,
         /// The study.
         study: String,
-        /// Frames of its sensor.
+        /// Frames of the sensor of the study.
         frame: FrameInfo,
     },
     /// Stored frames would have fewer pixels than the grid of a model.
@@ -244,7 +244,7 @@ pub enum SceneProblem {
         found: f64,
         /// Name of the transducer.
         who: String,
-        /// Greatest age of its readings, in ms.
+        /// Greatest age of a reading of the transducer, in ms.
         stale_ms: f64,
         /// Greatest allowed speed, in mm/s.
         greatest: f64,

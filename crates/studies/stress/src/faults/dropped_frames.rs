@@ -10,7 +10,7 @@ pub(super) static FAULT: Fault = Fault {
     table: [0.01, 0.03, 0.1, 0.25, 0.5],
     most: 1.0,
     note: Some(
-        "it leaves the errors of the other rows as they are, so only metrics of time are computed, from all rows of the recording; \
+        "the fault leaves the errors of the other rows as they are, so only metrics of time are computed, from all rows of the recording; \
          its severity is its parameter",
     ),
     effect: Effect::Rows,

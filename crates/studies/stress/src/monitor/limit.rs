@@ -7,7 +7,7 @@ pub(super) const LEARNT: usize = 200;
 /// Newest pictures that are compared with the limit.
 pub(super) const WINDOW: usize = 30;
 
-/// Least limit, in multiples of the greatest excess of a run of [`WINDOW`] pictures. It exceeds other limits if flicker is slow.
+/// Least limit, in multiples of the greatest excess of a run of [`WINDOW`] pictures. This limit exceeds other limits if flicker is slow.
 pub(super) const RUNS: f64 = 3.0;
 
 /// Numbers of pictures that set a limit and exceed it.
@@ -15,7 +15,7 @@ pub(super) const RUNS: f64 = 3.0;
 struct Rule {
     /// Least number of the newest pictures beyond the limit that shows a change.
     beyond: usize,
-    /// Pictures of a run that exceed or reach its distance.
+    /// Number of pictures of a run that reach or exceed its excess over the median.
     reach: usize,
     /// Rank of the limit among [`LEARNT`] pictures, from the greatest number.
     rank: usize,
@@ -131,7 +131,7 @@ impl Limited {
     }
 }
 
-/// Expected number of false alarms of one measured value in `pictures` untouched pictures that are exchangeable with those that set the limit.
+/// Expected number of false alarms of one measured value in `pictures` untouched pictures that are exchangeable with the pictures that set the limit.
 ///
 /// The share q of pictures beyond the k-th greatest of n numbers follows Beta(k, n + 1 − k), whatever the distribution of the numbers.
 /// The number of pictures of a window beyond the limit is therefore beta-binomial. The sum over all windows is an upper bound, because windows

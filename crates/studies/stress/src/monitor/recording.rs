@@ -15,7 +15,7 @@ const RUN: usize = SETTLED as usize;
 impl Monitor {
     /// Learns from untouched pictures of `dataset`, the recording of the calibration: five evenly spaced runs of 50 successive pictures, or all
     /// untouched pictures. Returns false if it has fewer than [`LEAST_PICTURES`](Monitor::LEAST_PICTURES). The monitor then learns from the pictures
-    /// that it watches. It finds a change since the calibration only if this exceeds the change by contact.
+    /// that it watches. It finds a change since the calibration only if the change exceeds the change by contact.
     ///
     /// # Errors
     /// Errors of reading.

@@ -23,7 +23,7 @@ pub(crate) struct ErrorAt {
 /// Line through the logarithms of the errors of recordings, by least squares. Each recording is one observation, however many samples it has.
 pub(crate) struct Trend {
     line: Result<CurveFit, Undefined>,
-    /// Error of the last recording; `None` if no recording has one.
+    /// Error of the last recording; `None` without recordings.
     last: Option<f64>,
 }
 

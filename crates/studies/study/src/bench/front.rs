@@ -1,7 +1,7 @@
 //! Pareto front of models: processor time of the fit against error.
 //!
-//! A faster model beats a slower one on a channel, unless the slower model is shown to be more accurate. Accuracy is shown if the 95 % interval of the
-//! difference of mean absolute errors, paired by contact point, is below 0.
+//! A faster model beats a slower model on a channel, unless the slower model is shown to be more accurate. Accuracy is shown if the 95 % interval of
+//! the difference of mean absolute errors, paired by contact point, is below 0.
 
 use taceva_metrics::ClusterSums;
 

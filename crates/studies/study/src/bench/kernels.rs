@@ -81,7 +81,7 @@ pub struct Floor {
 pub struct KernelRow {
     /// Name of the kernel.
     pub name: String,
-    /// Instruction set that it was compiled for, if any.
+    /// Instruction set that the kernel was compiled for, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub isa: Option<String>,
     /// Scores computed: `mae r2 smape`, or `mae`.

@@ -30,7 +30,7 @@ pub struct StudyBench {
     pub machine: Machine,
     /// Name of the scene.
     pub scene: String,
-    /// Name of its study.
+    /// Name of the study.
     pub study: String,
     /// Seed of all random draws of the first repetition; each further repetition has the next seed.
     pub seed: u64,
@@ -54,7 +54,7 @@ pub struct StudyTrial {
     pub clusters: Option<usize>,
     /// Error of each channel in the first repetition; empty if the model could not be fitted.
     pub errors: Vec<StudyChannel>,
-    /// Mean of the widths of all channels and repetitions; `None` if one has no width.
+    /// Mean of the widths of all channels and repetitions; `None` if a width is missing.
     pub mean_width: Option<f64>,
     /// True if no other row has both less processor time and a lower mean width. False without time or width.
     pub pareto: bool,
@@ -77,7 +77,7 @@ pub struct StudyChannel {
     pub width: Option<f64>,
     /// Number of samples.
     pub n: u64,
-    /// Coverage of the intervals of all repetitions; `None` for a single one, or without intervals.
+    /// Coverage of the intervals of all repetitions; `None` for a single repetition, or without intervals.
     pub coverage: Option<StudyCoverage>,
 }
 

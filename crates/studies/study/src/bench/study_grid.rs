@@ -30,7 +30,7 @@ pub struct StudyGrid {
     pub points: Vec<u32>,
     /// Numbers of folds; `None` for one test part.
     pub folds: Vec<Option<u32>>,
-    /// Names of models. The scene's settings apply to its own model, and default settings to others.
+    /// Names of models. The scene's settings apply to its own model, and default settings to other models.
     pub models: Vec<String>,
 }
 
@@ -144,7 +144,7 @@ impl fmt::Display for StudyVariant {
 }
 
 impl StudyVariant {
-    /// Points times fits, which the time of a study roughly follows.
+    /// Number of points times number of fits, to which the time of a study is roughly proportional.
     pub(super) fn steps(&self) -> u64 {
         u64::from(self.points) * u64::from(self.folds.unwrap_or(1))
     }

@@ -30,7 +30,7 @@ pub(super) struct Learnt {
 /// A model and the division of its fit.
 struct Learned {
     model: Model,
-    /// `None` for a model that was fitted on another recording.
+    /// Division of the fit; `None` for a model that was fitted on another recording.
     divided: Option<Divided>,
 }
 

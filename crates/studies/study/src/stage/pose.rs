@@ -16,7 +16,7 @@ use crate::models::fit_request;
 /// Name of the task.
 const POSE: &str = "pose";
 
-/// Scores of changes of pose, or the reason why there are none. `None` if the scene asks for none.
+/// Scores of changes of pose, or the reason why there are none. `None` if the scene asks for none or fits no model, or the recording has no plan.
 pub(super) fn of(
     scene: &PlannedScene,
     study: &PlannedStudy,
@@ -46,7 +46,7 @@ pub(super) fn of(
     TaskOutcome::of(POSE, scores).map(Some)
 }
 
-/// `request` with the first of the seeds of the scene, if it states any.
+/// `request` with the first of the seeds of the scene, if the scene states seeds.
 fn with_first_seed(scene: &PlannedScene, request: FitRequest) -> Result<FitRequest, EvaluateError> {
     match scene.seeds.first() {
         Some(seed) => request.with_seed(*seed),

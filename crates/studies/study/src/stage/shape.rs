@@ -12,7 +12,7 @@ use crate::error::StudyError;
 /// Name of the task.
 const SHAPE: &str = "shape";
 
-/// Scores of contact shapes, or the reason why there are none. `None` if the scene asks for none.
+/// Scores of contact shapes, or the reason why there are none. `None` if the scene asks for none, or without a plan, predictions or footprint.
 pub(super) fn of(
     scene: &PlannedScene,
     study: &PlannedStudy,

@@ -4,7 +4,7 @@ use crate::task::Task;
 
 /// Accepted forms of a term, for messages.
 const UNDERSTOOD: &str = "expected NAME = VALUE or NAME != VALUE, joined by ` and ` or ` or ` (no parentheses), or the key of a task";
-/// Characters not allowed in an unquoted value. A term that contains such a character is rejected.
+/// Characters not allowed in an unquoted value. A term with such a value is rejected.
 const SIGNS: [char; 9] = ['=', '!', '<', '>', '&', '|', '(', ')', '"'];
 
 /// Term that selects tasks by the first digits of their key.

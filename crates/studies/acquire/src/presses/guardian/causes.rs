@@ -58,7 +58,7 @@ impl fmt::Display for CauseCounts {
 pub(super) fn remedy(policy: &str) -> &'static str {
     match policy {
         "SCHED_FIFO" | "SCHED_RR" | "SCHED_DEADLINE" => {
-            "stop other programs; the priority of this one is raised already"
+            "stop other programs; the priority of this program is raised already"
         }
         _ => "stop other programs, or run with `chrt -f 10 taceva run …`",
     }

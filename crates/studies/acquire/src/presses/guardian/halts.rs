@@ -11,11 +11,11 @@ use super::thread_facts::{ProcessorQueue, ThreadTimes};
 
 /// Longest call that is in time, s.
 const CALL_S: f64 = 0.02;
-/// Longest time from the decision to rest that is in time, s. Every driver promises it.
+/// Longest time from the decision to rest that is in time, s, as every driver promises.
 const REST_S: f64 = 0.05;
 /// Time after the decision during which poses are read, s.
 const FOLLOWED_S: f64 = 0.2;
-/// Greatest distance between two reports of a tip at rest, mm, if poses have less noise.
+/// Greatest distance between two reports of a tip at rest, mm; the noise of a pose replaces a smaller limit.
 const RESTS_MM: f64 = 1e-3;
 
 thread_local! {

@@ -137,7 +137,7 @@ impl Scored<'_> {
     }
 }
 
-/// The task of the dataset, with the clusters of the column `cluster` if that is named.
+/// The task of the dataset, with the clusters of the column `cluster` if this column is given.
 fn task_of(dataset: &Dataset, of: &TaskSpec, cluster: Option<&str>) -> Result<Task, EvaluateError> {
     let own = dataset.tasks().iter().map(|own| own.task());
     let found = own.clone().find(|task| task.name == of.name);

@@ -1,4 +1,4 @@
-//! Detects a frozen camera, whose frames are bit-equal to earlier ones although the force on the gel changed.
+//! Detects a frozen camera, whose frames are bit-equal to earlier frames although the force on the gel changed.
 
 use taceva_core::Frame;
 
@@ -9,8 +9,8 @@ use super::moment::Moment;
 const LIVE_FRAMES: u32 = 8;
 /// Number of changed frames of the untouched gel after which a camera counts as noisy. No two frames of a noisy camera are equal.
 const NOISY_FRAMES: u32 = 4;
-/// Number of repeats of one frame after which a camera with fewer changes counts as frozen. An earlier similar change of the force must have changed
-/// the frame.
+/// Number of repeats of one frame after which a camera with fewer changes counts as frozen. A camera counts as frozen only if an earlier force change
+/// of this size changed the frame.
 const STUCK_REPEATS: u32 = 3;
 /// Fraction of the greatest earlier force change. A larger force change must change the frame. Forces of presses to one depth vary.
 const SHOWN_PART: f64 = 0.75;

@@ -74,7 +74,7 @@ pub(super) struct Seen {
     place: usize,
     /// Greatest change in contact, in steps of an 8-bit pixel.
     pub(super) in_contact: f64,
-    /// Greatest change in the air, in the same steps.
+    /// Greatest change in the air, in steps of an 8-bit pixel.
     pub(super) in_air: f64,
 }
 

@@ -129,8 +129,8 @@ impl Run<'_> {
         }
     }
 
-    /// Continues the press to the depth at which sessions are compared. The depth is `earlier_mm`, or [`REFERENCE_MM`] in a first session. Stops
-    /// earlier at a part of the force limit.
+    /// Continues the press to the depth at which sessions are compared. The depth is `earlier_mm`, or at most [`REFERENCE_MM`] in a first session.
+    /// Stops earlier at a part of the force limit.
     fn press_deeper(&mut self, height_mm: f64, earlier_mm: Option<f64>) -> Step<Force> {
         let part = match earlier_mm {
             Some(_) => FORCE_PART,

@@ -110,7 +110,7 @@ pub enum TapError {
 /// Motion of the tip in one tap, from a straight line through its poses.
 #[derive(Clone, Copy, Debug)]
 struct Passage {
-    /// Time at which it passed the reference height, in s.
+    /// Time at which the tip passed the reference height, in s.
     at_s: f64,
     speed_mm_s: f64,
 }
@@ -148,7 +148,7 @@ impl Tapped {
     /// Latencies of the transducer and of the sensor.
     ///
     /// Each tap gives the delay between two times: the tip passes the reference height, and a device shows half of its change. Over all taps the
-    /// delay is L + δ/v, a line in the reciprocal of the speed v. L is the latency, δ the offset of the half change below that height.
+    /// delay is L + δ/v, a line in the reciprocal of the speed v. L is the latency, δ the offset of the half change below the reference height.
     ///
     /// A tap that a device does not show clearly is dropped, up to a quarter of all taps. A late tap is dropped, up to a fifth of all taps.
     ///

@@ -4,7 +4,7 @@ use taceva_core::{Frame, Pose, Stamp, Wrench};
 
 use crate::run::session_start::picture::means;
 
-/// Number of parts along each side of a frame; the mean brightness of each is recorded.
+/// Number of parts along each side of a frame; the mean brightness of each part is recorded.
 const PARTS: usize = 8;
 
 /// Values of every device, from before a tap to the rest after it, each with the time of its stamp.
