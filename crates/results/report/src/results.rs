@@ -255,7 +255,7 @@ impl Study {
         reads && draws && self.trainings(score).is_none()
     }
 
-    /// Column or kind of the groups that intervals leave out; `None` if they leave out contact points.
+    /// Column or kind of the groups that intervals leave out; `None` if they leave out contact points or samples.
     pub(crate) fn clustered_by(&self) -> Option<&str> {
         let methods = self
             .scores

@@ -142,8 +142,8 @@ impl Clusters {
     }
 }
 
-/// Rows of the `n` samples of a score: all rows with a prediction of each channel, or only rows of the calibration. `None` if neither number of rows
-/// equals `n`.
+/// Rows of the `n` samples of a score: all rows with truth and prediction of each channel, or only rows of the calibration. `None` if neither
+/// number of rows equals `n`.
 fn scored(samples: &Samples, channels: &[SampleChannel<'_>], n: u64) -> Option<Vec<usize>> {
     let paired = |rows: Vec<usize>| -> Vec<usize> {
         let mut rows = rows;
