@@ -68,7 +68,7 @@ pub enum Depth {
 pub struct PlainLayer {
     /// Number of output channels, a multiple of 16.
     pub channels: usize,
-    /// Side of the square kernel, in pixels. It must be odd.
+    /// Side of the square kernel, in pixels; an odd number.
     pub kernel: usize,
     /// Stride, in pixels.
     pub stride: usize,
@@ -84,7 +84,7 @@ impl Depth {
     }
 }
 
-/// Maximum number of values of any picture in a network. It ensures that offsets fit into 32 bits.
+/// Maximum number of values of any picture in a network, which ensures that offsets fit into 32 bits.
 const PICTURE_MAX: usize = 1 << 28;
 
 impl Architecture {

@@ -34,7 +34,7 @@ pub(crate) struct Convolution {
     pub(crate) inputs: usize,
     /// Number of output channels, a multiple of `PANEL`.
     pub(crate) outputs: usize,
-    /// Side of the kernel, in pixels. It must be odd.
+    /// Side of the kernel, in pixels; an odd number.
     pub(crate) kernel: usize,
     /// Stride, in pixels.
     pub(crate) stride: usize,

@@ -5,6 +5,6 @@
 pub enum Labels<'a> {
     /// Numbers in any unit, shape `[samples, outputs]`.
     Values(&'a [f64]),
-    /// Class of each sample. It must be below the number of outputs.
+    /// Class of each sample, below the number of outputs.
     Classes(&'a [u32]),
 }

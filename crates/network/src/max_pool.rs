@@ -53,7 +53,7 @@ impl CoveringWindow {
     }
 }
 
-/// Windows that contain row (or column) `at` in a picture with `windows` windows, each with the position of `at`. A missing second window has position
+/// Windows that contain row (or column) `at` in a picture with `windows` windows, each with the position of `at`. A missing window has position
 /// [`NOWHERE`] and an arbitrary valid index.
 #[inline(always)]
 fn windows(at: usize, windows: usize) -> [CoveringWindow; 2] {

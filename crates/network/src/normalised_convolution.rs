@@ -39,7 +39,7 @@ pub(crate) struct NormedSpace {
     pub(crate) raw: Planes,
     pub(crate) moments: Moments,
     pub(crate) sums: Vec<ChannelSums>,
-    /// Memory layout of the output gradient. It has a border if the input-gradient pass reads it.
+    /// Memory layout of the output gradient, with a border if the input-gradient pass reads the gradient.
     gradient: Layout,
     forward: Forward,
     weight_gradient: WeightGradient,

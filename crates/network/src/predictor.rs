@@ -35,7 +35,7 @@ pub struct Predictor {
 /// Number of pictures per batch.
 const BATCH: usize = 32;
 
-/// Minimum number of products of a picture for which idle threads are woken. This is several hundred microseconds of work.
+/// Minimum number of products of a picture for which idle threads are woken: several hundred microseconds of work.
 const PRODUCTS_WORTH_WAKING: usize = 1 << 24;
 
 /// Size of pictures between two stages that fit into a thread's second-level cache together with their inputs, in bytes.

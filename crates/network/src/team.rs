@@ -12,7 +12,7 @@ use rayon::Yield;
 /// Maximum number of threads for one picture. A layer has too little work for more threads.
 const MOST: usize = 8;
 
-/// Number of failed searches for work after which a thread may sleep. This takes several times the duration of a layer.
+/// Number of failed searches for work after which a thread may sleep. The searches take several times the duration of a layer.
 const PATIENCE: u32 = 3000;
 
 /// Number of failed searches after which a thread yields the processor to other programs.

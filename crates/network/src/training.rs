@@ -151,8 +151,8 @@ impl<'a> Trainer<'a> {
         })
     }
 
-    /// Present network and optimiser state. After a number that was not finite, returns the best network without optimiser state, because later values may not
-    /// be finite.
+    /// Present network and optimiser state. After a number that was not finite, returns the best network, if any, without optimiser state, because later values
+    /// may not be finite.
     fn snapshot(&self) -> Result<Snapshot, NetworkError> {
         match (&self.best, self.state.broken) {
             (Some(best), Some(_)) => Ok(Snapshot {

@@ -110,7 +110,7 @@ fn the_baseline_wins_nothing_in_comparisons_choices_pages_and_acceptances() {
     assert_eq!(choice["ranked"].as_array().map(Vec::len), Some(1));
     assert_eq!(choice["ranked"][0]["steps"][0]["standing"], Value::Null);
     let reason = choice["barred"][0]["reason"].as_str().expect("a reason");
-    assert!(reason.contains("`force` looks at MAE of Fz"), "{reason}");
+    assert!(reason.contains("`force` uses MAE of Fz"), "{reason}");
     assert!(
         reason.contains("not better than predicting the mean"),
         "{reason}"
@@ -169,7 +169,7 @@ fn what_a_model_has_seen_shows_no_skill_on_others() {
     let text = bench.ok("evaluate data --model baseline --part all --metrics mae -q");
     for words in [
         "standing   not better than predicting the mean: ",
-        "remedy     More contact points, or a score of every point (--split cv:5), would narrow this.",
+        "remedy     More contact points, or a score of every point (--split cv:5), would narrow the interval.",
     ] {
         assert!(text.contains(words), "{words}: {text}");
     }
@@ -180,7 +180,7 @@ fn a_cross_validation_is_not_asked_to_score_every_point() {
     let bench = Bench::new();
     bench.record("data", 32);
     let text = bench.ok("evaluate data --model baseline --split cv:5 --metrics mae -q");
-    let remedy = "remedy     More contact points would narrow this.\n";
+    let remedy = "remedy     More contact points would narrow the interval.\n";
     assert!(text.contains(remedy), "{text}");
 }
 

@@ -8,7 +8,7 @@ use crate::pair::Paired;
 /// Independent sums per column, so that an addition need not wait for the previous addition.
 const IN_FLIGHT: usize = 4;
 
-/// Rounded sum of all values of both columns, with eight vector sums in flight on the widest available vectors. Its run time is the lower
+/// Rounded sum of all values of both columns, with eight vector sums in flight on the widest available vectors. The run time is the lower
 /// bound for reading the columns from memory.
 pub fn stream_sum(pairs: Paired<&[f64]>) -> f64 {
     let widest = Isa::available().into_iter().find_map(Machine::with);

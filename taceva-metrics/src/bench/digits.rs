@@ -5,7 +5,7 @@ pub const ALL_DIGITS: f64 = 17.3;
 
 /// Number of decimal digits in which `value` agrees with `truth`: −log₁₀(|value − truth| / |truth|).
 ///
-/// The result is between 0 (no correct digit) and [`ALL_DIGITS`]. If `truth` is zero, the magnitude of `value` replaces the ratio. This number
+/// The result is between 0 (no correct digit) and [`ALL_DIGITS`]. If `truth` is zero, the magnitude of `value` replaces the ratio. The result
 /// is the log relative error of NIST's Statistical Reference Datasets (McCullough 1998).
 ///
 /// ```

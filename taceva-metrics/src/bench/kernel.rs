@@ -112,8 +112,8 @@ impl Kernel {
         }
     }
 
-    /// True if the order of rows cannot change a bit of the result. This is a property of the algorithm: equal results for some orders would
-    /// prove nothing.
+    /// True if the order of rows cannot change a bit of the result: a property of the algorithm, which equal results for some orders
+    /// would not prove.
     pub fn is_order_free(self) -> bool {
         self.is_exact()
     }

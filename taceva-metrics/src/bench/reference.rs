@@ -1,6 +1,6 @@
 //! Reference scores by integer arithmetic, in code independent of the measured sums.
 //!
-//! Residuals and terms of sMAPE follow the definitions, rounded once each. They are whole multiples of the least denormal number, so their sums
+//! Residuals and terms of sMAPE follow the definitions, rounded once each. Both are whole multiples of the least denormal number, so their sums
 //! and squares are whole numbers too. Rounding happens only at the end.
 
 use std::cmp::Ordering;

@@ -89,7 +89,7 @@ fn uniformity(sums: &SurfaceSums, settings: &Settings) -> Numbers {
         )
 }
 
-/// Debiased uniformity and its interval; empty if the samples of contact points are unknown.
+/// Debiased uniformity and its interval, or the reason why both are undefined.
 fn of_clusters(clusters: &[&SurfaceSums], settings: &Settings) -> Intervals {
     let cells = clusters.iter().map(|sums| {
         let cells = sums.cells.iter();

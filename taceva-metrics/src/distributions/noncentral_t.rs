@@ -127,7 +127,7 @@ pub fn noncentrality(share: f64, t: f64, freedom: f64) -> f64 {
 
 /// Smallest detectable difference, in estimated standard deviations with `freedom` degrees of freedom.
 ///
-/// Zero exceeds the threshold with probability `alarm`, and this difference stays below the threshold with probability `miss`.
+/// A true zero exceeds the threshold of detection with probability `alarm`. A true value of this size stays below with probability `miss`.
 ///
 /// ```
 /// use taceva_metrics::distributions::noncentral_t;

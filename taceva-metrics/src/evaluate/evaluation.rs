@@ -68,7 +68,7 @@ impl Evaluation {
         Evaluation::new(self.entries, self.skipped)
     }
 
-    /// The same scores, marked as scores of samples on which the model was fitted. They show no skill on other samples, so the skill is unknown.
+    /// The same scores, marked as scores of samples on which the model was fitted. Such scores show no skill on other samples, so the skill is unknown.
     #[must_use]
     pub fn of_seen_samples(mut self) -> Evaluation {
         for entry in &mut self.entries {

@@ -100,8 +100,8 @@ impl MetricPlan {
     }
 
     /// The same plan for samples of several recordings, with each recording as a cluster. Intervals of errors, R², skill, planes, linearity,
-    /// cross-talk, bias by level, tolerance, agreement and tolerance interval then show the variation between recordings. Their method is
-    /// named `by recording`. Batches name the recording of each sample
+    /// cross-talk, bias by level, tolerance, agreement and tolerance interval then show the variation between recordings. The method of
+    /// these intervals says `by recording`. Batches name the recording of each sample
     /// ([`Batch::with_recordings`](taceva_core::Batch::with_recordings)); without these names the intervals are undefined. Metrics that
     /// compare samples of one contact point still use contact points as clusters.
     ///

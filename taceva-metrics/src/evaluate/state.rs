@@ -11,8 +11,8 @@ use crate::stats::row_groups::HASHED_CLUSTERS;
 
 /// Mergeable summary of a set of samples.
 ///
-/// Equal sets of samples have equal states, for any order, split or merge. A format that keeps every bit of a number keeps them equal too:
-/// `serde_json` needs its feature `float_roundtrip`.
+/// Equal sets of samples have equal states, for any order, split or merge. Equal states stay equal in a file format that keeps every bit
+/// of a number: `serde_json` needs its feature `float_roundtrip`.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Evaluator};

@@ -167,7 +167,7 @@ impl<V: Merge + Clone + Default> Cells<V> {
         keyed(cells.map(|(key, cell)| (key.to_text(), to_record(cell))))
     }
 
-    /// Reads the cells of a record. Their keys must have contact points exactly if `named`.
+    /// Reads the cells of a record. The keys of the cells must have contact points exactly if `named`.
     pub(crate) fn from_record(
         record: &Record,
         named: bool,

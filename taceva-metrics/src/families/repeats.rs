@@ -58,7 +58,7 @@ pub(crate) struct RepeatSums {
     n: u64,
     n_invalid: u64,
     cells: Cells<Cell>,
-    /// Labels of the same repeats, if present. Their standard deviation measures the stimulus.
+    /// Labels of the same repeats, if present. The standard deviation of the labels measures the stimulus.
     truth: Moments,
 }
 

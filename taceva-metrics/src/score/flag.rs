@@ -13,7 +13,7 @@ use std::fmt;
 pub enum Flag {
     /// All samples are in one bin, so the score cannot vary.
     OneBin,
-    /// The stimulus was too small: the light changed by less than 5 % in a scene, or labels differ less between presses than predictions of one press.
+    /// Too small a stimulus: the light changed by less than 5 % in a scene, or labels differ less between presses than predictions within one press.
     LowStimulus,
     /// The error of a scene is smaller than the error of the reference scene. The score penalises this change like a larger error.
     ImprovedError,
@@ -21,7 +21,7 @@ pub enum Flag {
     CollinearTruths,
     /// The training labels are unknown, so skill compares the model with the mean of the evaluated truth.
     MeanOfTruth,
-    /// All clusters give the same value, so the interval has no width. This does not show that the value is certain.
+    /// All clusters give the same value, so the interval has no width, although the value may be uncertain.
     EqualClusters,
 }
 

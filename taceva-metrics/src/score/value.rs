@@ -270,7 +270,7 @@ impl fmt::Display for UndefinedReason {
                 let places = if *have == 1 { "place" } else { "places" };
                 write!(
                     f,
-                    "light presses are worth {have} {places}, {least} are needed"
+                    "light presses count as {have} {places}, {least} are needed"
                 )
             }
             UndefinedReason::NoRise => {

@@ -124,14 +124,14 @@ impl Standing {
                 "not above chance: with this number of samples, the differences between places may be chance",
             ),
             Standing::NotAboveConstant => Some(
-                "not above a constant answer: its interval is not better than the score of one constant answer, such as the mean of the training labels",
+                "not above a constant answer: the interval of the score is not better than the score of one constant answer, such as the mean of the training labels",
             ),
             Standing::NoInterval => Some(
                 "no interval to compare with predicting the mean: too few contact points were scored, or nothing varied between them",
             ),
-            Standing::NoSkill => {
-                Some("not better than predicting the mean: its skill is not shown to be above zero")
-            }
+            Standing::NoSkill => Some(
+                "not better than predicting the mean: the skill of the model is not shown to be above zero",
+            ),
         }
     }
 
@@ -141,16 +141,16 @@ impl Standing {
     /// use taceva_metrics::Standing;
     /// let steps = [false, true].map(|is_cross_validated| Standing::NoSkill.remedy(is_cross_validated));
     /// assert!(steps[0].is_some_and(|step| step.contains("--split cv:5")));
-    /// assert_eq!(steps[1], Some("More contact points would narrow this."));
+    /// assert_eq!(steps[1], Some("More contact points would narrow the interval."));
     /// assert_eq!(Standing::Counts.remedy(false), None);
     /// ```
     pub fn remedy(self, is_cross_validated: bool) -> Option<&'static str> {
         match self {
             Standing::Counts | Standing::SkillUnknown => None,
             Standing::NoSkill | Standing::NotAboveConstant => Some(match is_cross_validated {
-                true => "More contact points would narrow this.",
+                true => "More contact points would narrow the interval.",
                 false => {
-                    "More contact points, or a score of every point (--split cv:5), would narrow this."
+                    "More contact points, or a score of every point (--split cv:5), would narrow the interval."
                 }
             }),
             Standing::NoInterval => Some(match is_cross_validated {
@@ -162,12 +162,14 @@ impl Standing {
                         --independent if no two samples share a press."
                 }
             }),
-            Standing::NotAboveNoiseFloor => Some("More presses at each place would narrow this."),
+            Standing::NotAboveNoiseFloor => {
+                Some("More presses at each place would narrow the interval.")
+            }
             Standing::Neighbours => Some(
                 "Leave --split out, in `taceva fit` too: the default keeps neighbours together.",
             ),
-            Standing::LowStimulus => Some("Stronger light or more different presses avoid this."),
-            Standing::Bounded => Some("A model fitted on a wider range of labels avoids this."),
+            Standing::LowStimulus => Some("Use stronger light, or presses that differ more."),
+            Standing::Bounded => Some("Fit the model on a wider range of labels."),
         }
     }
 

@@ -72,7 +72,7 @@ pub fn by_intervals(estimates: Sides<Estimate>) -> Result<Difference, Comparison
     Ok(tested.with(Inverse::Intervals(pair)))
 }
 
-/// Pair of estimates. Their difference has an interval at every level.
+/// Pair of estimates, whose difference has an interval at every level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Pair {
     a: Estimate,

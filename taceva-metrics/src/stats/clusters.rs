@@ -13,8 +13,8 @@ const WHOLE: &str = "all";
 
 /// One summary per cluster of samples.
 ///
-/// The variants are stages in a fixed order, and the set of samples alone determines the stage. Contact points are stored by name up to
-/// [`NAMED_CLUSTERS`] of them, beyond that by a hash of the name. One sample without a contact point removes all clusters. This type
+/// The variants are stages in a fixed order, and the set of samples alone determines the stage. Up to [`NAMED_CLUSTERS`] contact points
+/// are stored by name, more contact points by a hash of the name. One sample without a contact point removes all clusters. This type
 /// gets no further variant in a compatible version: states contain the stage, and another stage would need another state.
 ///
 /// ```

@@ -14,7 +14,7 @@ const TWO_SIDED: f64 = 1.959_963_984_540_054;
 const HALVED: f64 = TWO_SIDED;
 const QUARTERED: f64 = 2.241_402_727_604_947;
 const EIGHTH: f64 = 2.497_705_474_412_382;
-/// Assumed excess kurtosis. The absolute value of a Gaussian error has 0.87, and differences of spread between places increase it.
+/// Assumed excess kurtosis: 0.87 for the absolute value of a Gaussian error, increased by differences of spread between places.
 const KURTOSIS: f64 = 1.5;
 /// Least degrees of freedom of the noise for an excess. Paulson's approximation needs three, and tail probabilities need more.
 const LEAST_FREEDOM: f64 = 6.0;

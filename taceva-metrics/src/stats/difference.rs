@@ -30,7 +30,7 @@ pub struct Difference {
     /// Standard error of the difference over choices of clusters, and over trainings if their spread is given.
     pub standard_error: f64,
     /// Differences that the test at `1 − confidence` does not reject. The interval excludes 0 exactly if a difference is shown. An end is infinite
-    /// if too few clusters reject any difference on that side.
+    /// if the clusters are too few to reject any difference on that side.
     pub interval: [f64; 2],
     /// Confidence of the interval: 0.95 for a single difference, greater in a family.
     pub confidence: f64,
@@ -57,8 +57,8 @@ pub(super) enum Inverse {
     Student { freedom: f64 },
 }
 
-/// Differences at which another pattern of signs gives a sum as large as the observed sum, sorted from below and from above. Patterns with such a sum
-/// at every difference are infinite.
+/// Differences at which another pattern of signs gives a sum as large as the observed sum, sorted from below and from above. A pattern with such a
+/// sum at every difference has infinite entries.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Flips {
     pub(super) from_below: Vec<f64>,

@@ -9,8 +9,8 @@ pub(super) const LEVEL: f64 = 0.05;
 /// Adjusts the p values of a family of tests and returns them in the given order. Thresholds for adjusted values limit the probability of
 /// any false rejection in the whole family.
 ///
-/// With p₍₁₎ ≤ … ≤ p₍ₘ₎ the adjusted values are max over i ≤ j of min(1, (m − i + 1) p₍ᵢ₎). They increase with p, and equal p values
-/// have equal adjusted values.
+/// With p₍₁₎ ≤ … ≤ p₍ₘ₎ the adjusted values are max over i ≤ j of min(1, (m − i + 1) p₍ᵢ₎). Adjusted values increase with p, and
+/// equal p values have equal adjusted values.
 ///
 /// ```
 /// let adjusted = taceva_metrics::holm(&[0.01, 0.04, 0.03])?;

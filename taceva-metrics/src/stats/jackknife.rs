@@ -7,8 +7,8 @@ use crate::score::range::Range;
 use crate::score::value::UndefinedReason;
 use crate::score::{ClusteredBy, Interval};
 
-/// Least degrees of freedom of a variance from few clusters. If one cluster causes all of the variance, fewer would widen the interval
-/// several times without improving its coverage.
+/// Least degrees of freedom of a variance from few clusters. If one cluster causes all of the variance, fewer degrees would widen the
+/// interval several times without improving its coverage.
 const LEAST_FREEDOM: f64 = 3.0;
 
 /// Score with one cluster left out.

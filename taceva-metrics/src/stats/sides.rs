@@ -30,7 +30,7 @@ impl<T> Sides<T> {
     }
 }
 
-/// One side of a comparison. It gets no further variant: a comparison has two sides.
+/// One side of a comparison. This type gets no further variant: a comparison has two sides.
 ///
 /// ```
 /// assert_eq!(taceva_metrics::Side::A.to_string(), "A");

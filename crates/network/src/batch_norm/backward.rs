@@ -71,7 +71,7 @@ pub(crate) fn gradient_sums(
 }
 
 impl GradientSums {
-    /// Sums over a batch of `samples` values per channel. They are computed from the sums Σ g and Σ g · (x − mean) of its pictures.
+    /// Sums over a batch of `samples` values per channel, computed from the sums Σ g and Σ g · (x − mean) of the pictures.
     pub(crate) fn over(images: &[ChannelSums], moments: &Moments, samples: usize) -> GradientSums {
         let channels = moments.mean.len();
         let mut into = GradientSums {

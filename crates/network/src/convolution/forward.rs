@@ -53,7 +53,7 @@ impl Forward {
         }
     }
 
-    /// Runs the pass and writes to the first pictures of `output`. `see` is called for each picture while its output is in cache. It receives the item of
+    /// Runs the pass and writes to the first pictures of `output`. `see` is called for each picture while its output is in cache. `see` receives the item of
     /// `each` for this picture, and the output.
     pub(crate) fn run<E: Send>(
         &self,

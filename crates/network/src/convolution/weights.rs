@@ -52,7 +52,7 @@ impl ConvolutionWeights {
         }
     }
 
-    /// Writes the weights with inputs and outputs exchanged, for the input gradient. Their shape is `[inputs / PANEL, taps, outputs, PANEL]`.
+    /// Writes the weights with inputs and outputs exchanged, for the input gradient, in the shape `[inputs / PANEL, taps, outputs, PANEL]`.
     pub(crate) fn exchange(&self, machine: Machine, into: &mut [f32]) {
         let Convolution {
             inputs, outputs, ..
@@ -89,7 +89,7 @@ fn places(convolution: Convolution) -> impl Iterator<Item = usize> {
     })
 }
 
-/// Number of input panels written at once. Their source values are adjacent in memory.
+/// Number of input panels written at once, whose source values are adjacent in memory.
 const PANELS_AT_ONCE: usize = 2;
 
 /// Task that exchanges inputs and outputs for some input panels.

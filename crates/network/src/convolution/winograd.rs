@@ -53,7 +53,7 @@ pub(super) fn tiles(output: Picture) -> usize {
     Tiles::of(output).per_picture
 }
 
-/// Stride between points, in values. It is one panel longer than needed, because strides of powers of two would map all points to the same cache lines.
+/// Stride between points, in values. The stride is one panel longer than needed, because strides of powers of two would map all points to the same cache lines.
 const fn slab(rows: usize, width: usize) -> usize {
     rows * width + PANEL
 }

@@ -22,7 +22,7 @@ pub(crate) struct Convolution<B: Backend> {
     most: usize,
 }
 
-/// Maximum number of values of a tensor of windows. It corresponds to 128 MiB, the storage buffer size that WebGPU guarantees.
+/// Maximum number of values of a tensor of windows. These values take 128 MiB, the storage buffer size that WebGPU guarantees.
 const MOST: usize = 1 << 25;
 
 impl<B: Backend> Convolution<B> {

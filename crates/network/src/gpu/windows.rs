@@ -31,7 +31,7 @@ pub(crate) enum Way {
 }
 
 impl<B: Backend> Windows<B> {
-    /// Windows of a square kernel. They are centred on every `stride`-th pixel of every `stride`-th row.
+    /// Windows of a square kernel, centred on every `stride`-th pixel of every `stride`-th row.
     pub(crate) fn new(seen: [usize; 2], kernel: usize, stride: usize, device: &B::Device) -> Self {
         let given = seen.map(|length| given(length, kernel, stride));
         let itself = kernel == 1 && stride == 1;

@@ -6,7 +6,7 @@
 ///
 /// Every lane has the same operations in the same order. Results therefore do not depend on the width.
 pub(crate) trait Vector: Copy {
-    /// Proof that the CPU has the instructions. It is required to construct a vector.
+    /// Proof that the CPU has the instructions, required to construct a vector.
     type Proof: Copy;
     /// Number of values per vector, a divisor of a panel.
     const LANES: usize;

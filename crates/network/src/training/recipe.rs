@@ -78,7 +78,7 @@ impl Recipe {
         }
     }
 
-    /// Checks that there is one weight for each of `outputs` classes, or none.
+    /// Checks that there is one weight above 0 for each of `outputs` classes, or none.
     pub(super) fn check_weights(&self, outputs: usize) -> Result<(), NetworkError> {
         let weights = &self.class_weights;
         let are_positive = weights

@@ -27,8 +27,7 @@ pub(crate) struct Column {
 }
 
 impl TableColumns {
-    /// Columns of `table`, which was read from the file at `path` and is called `name` in the bundle. The manifest and the Croissant file therefore
-    /// state the same columns.
+    /// Columns of `table`, which was read from the file at `path` and is called `name` in the bundle.
     ///
     /// `None` for a table with a separator other than a comma, and for a table without columns.
     pub(crate) fn of_read(table: &CsvTable, path: &Path, name: &str) -> Option<TableColumns> {

@@ -12,7 +12,7 @@ pub(crate) const ENVIRONMENT_SCHEMA: &str = "taceva.environment/1";
 /// Machine that `environment.json` describes.
 const MACHINE: &str = "the machine on which `taceva bundle` computed the claims again; results do not state the machine that measured or scored";
 
-/// Content of `environment.json`. It names neither the host nor its user.
+/// Content of `environment.json`, without the names of host and user.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Environment {
     pub(crate) schema: String,

@@ -274,7 +274,7 @@ pub(crate) fn licence_address(licence: &str) -> String {
     format!("https://spdx.org/licenses/{licence}")
 }
 
-/// Message on a broken seal. It replaces the command for accepting edits, which does not apply to manifests.
+/// Message on a broken seal, without the command for accepting edits, which does not apply to manifests.
 fn unsealed(fault: &str) -> String {
     let fault = fault.split("; restore it").next().unwrap_or(fault);
     format!("{fault}; restore it, or make the bundle again with `taceva bundle`")

@@ -94,7 +94,7 @@ impl Recomputation {
                 Some("the maker of the bundle withheld the tables")
             }
             true => None,
-            false => Some("name the tables that were scored by --truth and --pred"),
+            false => Some("name the scored tables by --truth and --pred"),
         };
         let named = |stop: Stop| Stop {
             reason: source.as_named(&stop.reason),

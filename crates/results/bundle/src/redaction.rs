@@ -50,7 +50,7 @@ impl FromStr for Redaction {
 const HOST_KEYS: [&str; 6] = ["address", "host", "hostname", "ip", "server", "url"];
 /// Keys whose value is a serial number.
 const SERIAL_KEYS: [&str; 4] = ["serial", "serial_number", "serial_no", "sn"];
-/// Characters that end a word outside a path.
+/// Characters that end a word, and a path outside quotes.
 const ENDS: &str = " \t\r\n\"',;()[]{}=";
 
 /// The text with `what` redacted, and the number of redacted words.
@@ -127,7 +127,7 @@ fn is_path(word: &str) -> bool {
     drive || is_rooted || beginnings.iter().any(|own| word.starts_with(own))
 }
 
-/// Length of the path at the start of `rest`: up to the closing quote, or the end of the word without a quote.
+/// Length of the path at the start of `rest`: up to the closing quote, a comma or a line end inside quotes, else to the end of the word.
 fn path_length(rest: &str, quote: Option<char>) -> usize {
     let ends = |letter: char| match quote {
         Some(quote) => letter == quote || letter == ',' || letter == '\n',

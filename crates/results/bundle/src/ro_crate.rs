@@ -139,7 +139,7 @@ fn licence(own: &str) -> Value {
     })
 }
 
-/// The run of the program that made the bundle. Its time is the day of the manifest.
+/// The run of the program that made the bundle. The time of the run is the day of the manifest.
 fn run(manifest: &Manifest) -> Value {
     let from = manifest.studies.iter().flat_map(StudyFiles::names);
     let from: Vec<Value> = from.map(|name| reference(name)).collect();

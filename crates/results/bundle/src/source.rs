@@ -174,7 +174,7 @@ pub(crate) fn digest_of(path: &Path) -> Result<String, BundleError> {
     digest().map_err(failed)
 }
 
-/// The only folder of a packed folder, else the folder itself.
+/// Folder with the manifest: the only folder in `content`, else `content` itself.
 fn innermost(content: PathBuf) -> PathBuf {
     if content.join(MANIFEST).exists() {
         return content;

@@ -1,4 +1,4 @@
-//! Files generated from the manifest. They are compared with the files of the bundle, and no value is read from them.
+//! Files generated from the manifest, only for comparison with the files of the bundle. No value is read from a generated file.
 
 use crate::columns::TableColumns;
 use crate::layout::{CARD, CITATION, CRATE, CROISSANT, EVAL_RESULTS, LICENCE};

@@ -310,7 +310,7 @@ fn facts(sealed: &SealedManifest) -> BundleFacts {
     }
 }
 
-/// Facts of the bundle at `path`, and its manifest. Its files are not read.
+/// Facts of the bundle at `path`, and its manifest. The other files are not read.
 ///
 /// # Errors
 /// [`BundleError::Damaged`] for a path that is not a bundle of this version; [`BundleError::File`] for an unreadable manifest.

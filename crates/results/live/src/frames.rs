@@ -56,7 +56,7 @@ pub(crate) struct Picture {
 }
 
 impl Frames {
-    /// Offers `frame` and its predictions to the encoder. Skips the frame if the last accepted frame is too recent.
+    /// Offers `frame` and its predictions to the encoder. Skips the frame if the last encoding began too recently.
     pub(crate) fn offer(&self, frame: &Frame, overlay: Option<Overlay>) {
         let mut newest = lock(&self.newest);
         let period = match overlay {

@@ -26,7 +26,7 @@ pub(crate) struct Shared {
     pub(crate) is_over: AtomicBool,
     /// Number of the last picture with a prediction that was sent to a browser.
     last_sent: AtomicU64,
-    /// Callback for each sent picture with a prediction. Its argument is the stamp of the frame, s.
+    /// Callback for each sent picture with a prediction. The argument is the stamp of the frame, s.
     on_sent: OnceLock<Box<dyn Fn(f64) + Send + Sync>>,
 }
 
@@ -250,7 +250,7 @@ impl Shared {
         self.inside().state.is_stopping = true;
     }
 
-    /// Whole state as JSON, without places.
+    /// State as JSON, without the places.
     pub(crate) fn state_json(&self) -> String {
         let mut inside = self.inside();
         let sight = self.frames.sight();

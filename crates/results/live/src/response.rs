@@ -1,4 +1,4 @@
-//! HTTP responses. Their headers restrict the browser to the features that this page needs.
+//! HTTP responses, with headers that restrict the browser to the features that the page needs.
 
 use std::io::{self, Write};
 

@@ -120,9 +120,9 @@ pub(crate) struct State {
     pub(crate) damaged: u64,
     /// True if the count of dropped frames is complete.
     pub(crate) numbered: bool,
-    /// Share of values at full scale in the newest frame; `None` before the first measurement.
+    /// Share of values at full scale in the last measured frame; `None` before the first measurement.
     pub(crate) saturated: Option<f64>,
-    /// Sharpness of the newest frame; see [`Sight`](crate::sight::Sight).
+    /// Sharpness of the last measured frame; see [`Sight`](crate::sight::Sight).
     pub(crate) sharpness: Option<f64>,
     /// Number of recorded presses, and number of all presses.
     pub(crate) presses: [usize; 2],

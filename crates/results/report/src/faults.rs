@@ -67,7 +67,7 @@ pub(crate) struct FaultScores {
     pub(crate) severities: Vec<SeverityScores>,
     pub(crate) unreached: Vec<Unreached>,
     pub(crate) breaks_at: BTreeMap<String, Option<u8>>,
-    /// Added error less that of the reference model; empty without one.
+    /// Added error minus the added error of the reference model; empty without a reference model.
     #[serde(default)]
     pub(crate) difference: BTreeMap<String, ErrorDifference>,
 }

@@ -57,7 +57,7 @@ pub struct ReportPage<'a> {
 
 /// Renders a report as one HTML file.
 ///
-/// The page opens from disk without external requests. Its content security policy allows only its own style and script, by digest. Equal results
+/// The page opens from disk without external requests. The content security policy of the page allows only its own style and script, by digest. Equal results
 /// give equal bytes.
 pub fn report(report: &ReportPage<'_>) -> String {
     let studies = report.studies;

@@ -54,7 +54,7 @@ impl Light {
         }
     }
 
-    /// Effect of light as text: `errors become 66 to 325 times as large in the lit scenes`.
+    /// Effect of light as text: `errors of unbounded predictions become 66 to 325 times as large in the lit scenes`.
     fn errors(&self) -> Option<String> {
         let [low, high] = crate::figure::extent(self.scenes.iter().filter_map(|of| of.error))?;
         let scenes = by_count(self.scenes.len(), "scene", "scenes");
@@ -84,7 +84,7 @@ impl Light {
     }
 }
 
-/// Effect of light on each study, regardless of standing: `ViTacTip: errors become 66 to 325 times as large in the lit scenes`. Empty for other metrics.
+/// Effect of light on each study, regardless of standing: the texts of `errors` and `low_stimulus` after its name. Empty for other metrics.
 pub(crate) fn words(studies: &[Study], names: &[String], metric: &str, channel: &str) -> String {
     let of_one = |(study, name): (&Study, &String)| {
         let light = Light::of(study.score(metric, channel)?);

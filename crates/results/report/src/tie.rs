@@ -191,7 +191,7 @@ fn boards<'a>(samples: &'a Samples, kind: &'a str) -> impl Iterator<Item = f64> 
     rows.filter_map(|row| samples.number("spacing_mm", row))
 }
 
-/// Finest spacing down to which all gratings of `kind` are predicted to within `tolerance_mm`. `None` if the coarsest grating is not.
+/// Finest spacing down to which all gratings of `kind` are predicted to within `tolerance_mm`. `None` if even the coarsest grating is predicted worse.
 fn finest(samples: &Samples, kind: &str, tolerance_mm: f64) -> Option<f64> {
     let nanometres = |mm: f64| (mm * NM).round();
     let mut boards: BTreeMap<u64, bool> = BTreeMap::new();

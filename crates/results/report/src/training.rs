@@ -8,7 +8,7 @@ use taceva_metrics::catalogue;
 use crate::names::{listed, names};
 use crate::results::Study;
 
-/// Least number of contact places for a verdict on sensors. With fewer places, twice the places halve the errors, so that a comparison reflects the training.
+/// Least number of contact places for a verdict on sensors. Below this number, twice as many places halve the errors, so a comparison reflects the training.
 pub(crate) const LEAST_PLACES: usize = 200;
 
 /// Number of contact places of calibration samples without predictions, which fitted or selected the model; `None` if unknown.

@@ -45,7 +45,7 @@ pub struct EvaluationReport {
     /// Scores of tasks, such as slip; empty unless the scene requests a task.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tasks: Vec<StudyTask>,
-    /// Samples behind the scores, if available. They are not part of the JSON.
+    /// Samples behind the scores, if available. The JSON omits these samples.
     #[serde(skip)]
     pub samples: Option<Samples>,
 }

@@ -291,7 +291,7 @@ impl Samples {
         }
     }
 
-    /// Text of a sample in a column; `None` for an empty cell or a missing column.
+    /// Text of a sample in a column; `None` for an empty cell, a numeric column or a missing column.
     pub fn word(&self, column: &str, row: usize) -> Option<&str> {
         match &self.column(column)?.1 {
             SampleColumn::Words(words) => {
@@ -301,7 +301,7 @@ impl Samples {
         }
     }
 
-    /// Number of a sample in a column other than a channel; `None` for an empty cell or a missing column.
+    /// Number of a sample in a column; `None` for an empty cell, a text that is not a number, or a missing column.
     pub fn number(&self, column: &str, row: usize) -> Option<f64> {
         match &self.column(column)?.1 {
             SampleColumn::Numbers(numbers) => numbers.get(row),

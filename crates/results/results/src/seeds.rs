@@ -5,7 +5,7 @@ use taceva_core::Unit;
 
 /// Scores of one model fitted with several seeds on the same presses and split.
 ///
-/// The spread of the scores comes from the training. Intervals by contact point show the spread over other presses. Comparisons add both.
+/// The spread of the scores comes from the training. Intervals by contact point show the spread over other presses. Comparisons add both spreads.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct OverSeeds {
     /// Seeds in order. The report's scores belong to the first seed.

@@ -37,7 +37,7 @@ pub struct Classes {
     clusters: ByCluster<Cells>,
 }
 
-/// State before its checks. Its counts may contradict the names.
+/// State before its checks, with counts that may contradict the names.
 #[derive(Deserialize)]
 struct Stored {
     names: Names,

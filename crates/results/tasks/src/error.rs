@@ -149,7 +149,7 @@ impl TaskError {
     pub(crate) fn checked_count(n: u64, count: u64) -> Result<u64, TaskError> {
         // Twice the number of samples occurs in formulas, and their products in 128 bits.
         let sum = n.checked_add(count).filter(|sum| *sum < 1 << 53);
-        sum.ok_or_else(|| TaskError::damaged("more than 2^53 samples"))
+        sum.ok_or_else(|| TaskError::damaged("2^53 samples or more"))
     }
 
     /// Error for the positive class `name`, which is not among `names`.

@@ -41,7 +41,7 @@ pub struct Probabilities {
     ranking: Ranking,
 }
 
-/// State before its checks. Its counts may contradict each other.
+/// State before its checks, with counts that may contradict each other.
 #[derive(Deserialize)]
 struct Stored {
     names: Names,

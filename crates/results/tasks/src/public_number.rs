@@ -6,7 +6,7 @@ use std::str::FromStr;
 use serde::{Serialize, Serializer};
 use taceva_core::{nearest, shown};
 
-/// Public program whose numbers can be computed in addition to ours. More programs may be added.
+/// Public program whose numbers can be computed in addition to the correct numbers. More programs may be added.
 ///
 /// ```
 /// use taceva_tasks::PublicProgram;

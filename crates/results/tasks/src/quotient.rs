@@ -28,8 +28,8 @@ pub(crate) fn ratio(above: u128, below: u128) -> f64 {
 
 /// Sum of `terms` divided by `by`, rounded once; `by` is above 0.
 ///
-/// Each term is truncated to a multiple of 2⁻¹²⁸, which gives two bounds of the sum. If both round to one number, this is the result. Otherwise the
-/// sum is computed as one fraction, whose size grows with the number of terms.
+/// Each term is truncated to a multiple of 2⁻¹²⁸, which gives two bounds of the sum. If both round to one number, that number is the result.
+/// Otherwise the sum is computed as one fraction, whose size grows with the number of terms.
 pub(crate) fn sum_over(terms: impl Iterator<Item = Quotient> + Clone, by: u64) -> f64 {
     let [mut units, mut upper, mut lower] = [0_u128; 3];
     let mut cut = 0;

@@ -8,7 +8,7 @@ use crate::evidence::TaskEvidence;
 use crate::public_number::PublicNumber;
 use crate::score::TaskScore;
 
-/// Schema of a report of tasks. 1.1: method, standard error and degrees of freedom of each interval.
+/// Schema of a report of tasks. Version 1.1 added method, standard error and degrees of freedom of each interval.
 pub const TASKS_SCHEMA: &str = "taceva.tasks/1.1";
 
 /// Scores of the tasks of two tables.

@@ -28,7 +28,7 @@ pub struct TaskScore {
     pub definition: String,
     /// Value, interval and counts.
     pub estimate: Estimate,
-    /// Interval of a share if frames were independent; `None` for other scores. Frames of a cluster are dependent, so the score has no such interval.
+    /// Interval of a share as if frames were independent, unlike the interval of `estimate`; `None` for other scores.
     pub if_frames_were_independent: Option<Interval>,
     /// Properties of the samples that limit the score.
     pub flags: Vec<ScoreFlag>,

@@ -1,6 +1,6 @@
 //! Shapes as clouds of points: Chamfer distances and F scores.
 //!
-//! Four distances are called Chamfer in publications. The score is ½ (mean + mean) of the distances to the nearest point, both ways.
+//! Publications call several distances Chamfer. The score is ½ (mean + mean) of the distances to the nearest point, both ways.
 //! The variant `sum` is mean + mean, and `squared` is the sum of the means of squared distances.
 //!
 //! ```

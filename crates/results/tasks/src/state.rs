@@ -1,4 +1,4 @@
-//! State of one task. Its scores are computed from the state, which can be merged with states of other tables.
+//! State of one task. The scores of the task are computed from the state, which can be merged with states of other tables.
 
 use std::collections::BTreeSet;
 

@@ -35,7 +35,7 @@ pub struct TopK {
     clusters: ByCluster<Places>,
 }
 
-/// State before its checks. Its counts may contradict the names.
+/// State before its checks, with counts that may contradict the names.
 #[derive(Deserialize)]
 struct Stored {
     names: Names,

@@ -80,7 +80,7 @@ impl<'de, const SUMS: usize, const COUNTS: usize> Deserialize<'de> for Totals<SU
 /// Counts of all clusters of a stored state.
 ///
 /// # Errors
-/// [`TaskError::Damaged`] for a count of more than 2⁵³.
+/// [`TaskError::Damaged`] for a sum of counts of 2⁵³ or more.
 pub(crate) fn checked_counts<const SUMS: usize, const COUNTS: usize>(
     clusters: &ByCluster<Totals<SUMS, COUNTS>>,
 ) -> Result<[u64; COUNTS], TaskError> {

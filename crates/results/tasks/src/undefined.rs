@@ -74,7 +74,7 @@ impl fmt::Display for Undefined {
                 "the scores are not probabilities: each from 0 to 1, and their sum 1 within 1e-6, so write seven decimals or more"
             },
             Undefined::InfiniteLoss => "a class of probability 0 is true",
-            Undefined::TooManyPlaces => "as many places as classes, or more",
+            Undefined::TooManyPlaces => "the first k places contain all classes",
             Undefined::NoThresholds => "the task has no thresholds",
             Undefined::NoPoints => "no points",
             Undefined::NoValidPixel => "no pixel is valid in truth and prediction",

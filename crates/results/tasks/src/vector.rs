@@ -1,6 +1,6 @@
 //! Lengths and angles of vectors in space, with the same bits on every machine.
 
-/// Greatest magnitude of a coordinate, a depth and a size, mm. Their squares and quotients are finite.
+/// Greatest magnitude of a coordinate, a depth and a size, mm. Squares and quotients of such numbers are finite.
 pub(crate) const GREATEST_MM: f64 = 1e9;
 
 /// Length of a vector, in the unit of its parts.

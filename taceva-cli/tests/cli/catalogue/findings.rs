@@ -107,7 +107,7 @@ fn a_manifest_that_is_missing_changed_or_without_numbers_is_found() {
     let path = bench.path("c/bundles").join(&name);
     edit(&path, |text| text.replacen("Ada", "Eve", 1));
     let found = findings(&bench);
-    has(&found, &["bundles/", "expected that of its name"]);
+    has(&found, &["bundles/", "expected the digest in its name"]);
     has(&found, &["entries/foo.toml", "missing or damaged"]);
     let entry = text(&bench, "entries/foo.toml");
     let rows = entry.matches("[[measured]]").count();
@@ -125,7 +125,10 @@ fn a_manifest_that_is_missing_changed_or_without_numbers_is_found() {
     );
     let bench = catalogue();
     fs::remove_file(bench.path("c/entries/foo.toml")).expect("there");
-    has(&findings(&bench), &["bundles/", "no entry has its numbers"]);
+    has(
+        &findings(&bench),
+        &["bundles/", "no entry has the numbers of this manifest"],
+    );
     // The rows of an addition that was cut off are written by the same command.
     bench.ok("catalogue add one --to c");
     assert!(findings(&bench).is_empty());

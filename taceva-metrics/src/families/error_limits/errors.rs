@@ -33,7 +33,7 @@ impl<'a> Errors<'a> {
         self.totals.errors.mean().ok_or(UndefinedReason::Empty)
     }
 
-    /// Errors as a normal sample: of independent errors if no two belong to one cluster, else of clusters.
+    /// Errors as a normal sample: of independent errors if no two belong to one cluster or the clusters are unknown, else of clusters.
     pub(crate) fn sample(&self) -> Result<NormalSample, UndefinedReason> {
         let errors = &self.totals.errors;
         match errors.n {

@@ -76,7 +76,7 @@ impl IntrinsicSums {
         self.n_invalid
     }
 
-    /// RN of the share of duplicates among the frames for which the frame and its predecessor have a digest.
+    /// RN of the share of duplicates among the frames with a digest whose predecessor has a digest.
     pub(super) fn duplicated(&self) -> Finished {
         if self.frames.is_empty() {
             return Err(UndefinedReason::NoTimes);

@@ -9,7 +9,7 @@ impl Estimate {
     ///
     /// On the scale g of the interval, the trainings have the standard error s |g′(value)| to first order, with s the standard error of
     /// `spread`. Both standard errors add as squares, with degrees of freedom by Welch and Satterthwaite. A share of n effective samples then has
-    /// n′ of them, 1/n′ = 1/n + s² / (p (1 − p)), with p the mean of all trainings. Equal trainings change no bit.
+    /// n′ effective samples, 1/n′ = 1/n + s² / (p (1 − p)), with p the mean of all trainings. Equal trainings change no bit.
     ///
     /// ```
     /// use taceva_metrics::{Estimate, Sides, TrainingSpread, by_intervals};

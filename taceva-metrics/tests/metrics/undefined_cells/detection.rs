@@ -113,10 +113,7 @@ fn without_light_presses_at_enough_places_there_is_no_limit_and_the_reason_says_
     );
     let mut few = eleven_places(1.0 / 128.0);
     few.truncate(9);
-    assert_eq!(
-        said(&few),
-        "light presses are worth 9 places, 10 are needed"
-    );
+    assert_eq!(said(&few), "light presses count as 9 places, 10 are needed");
     // Ten places once and one of them ten times more: 20² / (9 × 1 + 11²) = 400 / 130.
     let mut uneven = eleven_places(1.0 / 128.0);
     uneven.truncate(10);
@@ -124,7 +121,7 @@ fn without_light_presses_at_enough_places_there_is_no_limit_and_the_reason_says_
     uneven.extend(repeated);
     assert_eq!(
         said(&uneven),
-        "light presses are worth 3 places, 10 are needed"
+        "light presses count as 3 places, 10 are needed"
     );
     let mut unnamed = eleven_places(1.0 / 128.0);
     unnamed.push(pair(&[0.1], &[0.1]));

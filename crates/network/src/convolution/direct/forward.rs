@@ -17,10 +17,10 @@ use crate::planes::Layout;
 use crate::simd::Pixels;
 use crate::team;
 
-/// Number of pixels per task of a thread. It is large enough to amortise reading the weights.
+/// Number of pixels per task of a thread, large enough to amortise reading the weights.
 const PIXELS_AT_ONCE: usize = 384;
 
-/// Minimum number of pictures for which the border is skipped. It equals the number of rows in a tile of sums.
+/// Minimum number of pictures for which the border is skipped, equal to the number of rows in a tile of sums.
 const IMAGES_WORTH_CLASSES: usize = 6;
 
 /// Maximum number of pixels of a tile of sums.
@@ -87,7 +87,7 @@ impl Forward {
         }
     }
 
-    /// Runs the pass and writes to the first pictures of `output`. `see` is called for each picture while its output is in cache. It receives the item of
+    /// Runs the pass and writes to the first pictures of `output`. `see` is called for each picture while its output is in cache. `see` receives the item of
     /// `each` for this picture, and the output.
     pub(crate) fn run<E: Send>(
         &self,

@@ -10,7 +10,7 @@ use crate::panel::PANEL;
 use crate::planes::{Layout, Planes};
 use crate::simd::{Job, Pixels, Tile, Vector};
 
-/// Size of the output gradient processed at once, in bytes. It remains in the second-level cache.
+/// Size of the output gradient processed at once, in bytes. This part remains in the second-level cache.
 const GRADIENT_AT_ONCE: usize = 400 << 10;
 
 /// Number of rows of weights in one task.

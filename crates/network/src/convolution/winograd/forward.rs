@@ -52,8 +52,8 @@ impl Forward {
         room
     }
 
-    /// Runs the pass with transformed weights, and writes to the first pictures of `output`. `see` is called for each picture while its output is in cache. It
-    /// receives the item of `each` for this picture, and the output.
+    /// Runs the pass with transformed weights, and writes to the first pictures of `output`. `see` is called for each picture while its output is in cache.
+    /// `see` receives the item of `each` for this picture, and the output.
     pub(crate) fn run<E: Send>(
         &self,
         machine: Machine,

@@ -1,4 +1,4 @@
-//! Products of tiles and transformed weights. They compute the forward pass and, with exchanged weights, the input gradient.
+//! Products of tiles and transformed weights, which compute the forward pass and, with exchanged weights, the input gradient.
 
 use std::ops::Range;
 
@@ -83,7 +83,7 @@ impl Products {
     }
 
     /// Computes and writes the outputs of pictures. `ending` returns start values and finish of the sums for a range of values. `see` is called for each
-    /// picture while its output is in cache. It receives the item of `each` for this picture, and the output.
+    /// picture while its output is in cache. `see` receives the item of `each` for this picture, and the output.
     pub(super) fn run<'a, E: Send>(
         &self,
         machine: Machine,

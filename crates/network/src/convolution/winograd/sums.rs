@@ -12,7 +12,7 @@ use crate::simd::{Job, Pixels, Tile, Vector};
 /// Number of tiles per piece.
 pub(super) const PIECE: usize = 16;
 
-/// Number of channel panels per task. This is the greatest number that the widest machine sums at once.
+/// Number of channel panels per task, the greatest number that the widest machine sums at once.
 const PANELS_AT_ONCE: usize = 4;
 
 /// Transformed tiles, in pieces of [`PIECE`] tiles.

@@ -53,8 +53,8 @@ pub struct Addition {
 ///
 /// # Errors
 /// [`CatalogueFolderError`] if the bundle is not verified, is a draft or is in the catalogue already. Also for an invalid entry and for a file that
-/// cannot be written. After an error the catalogue is unchanged, unless only some of several entries could be written. Repeat the call to complete
-/// these entries.
+/// cannot be written. After an error the catalogue is unchanged, unless only some of several entries could be written. Repeat the call to write
+/// the other entries.
 pub fn add(request: &AddRequest) -> Result<Addition, CatalogueFolderError> {
     let submission = Submission::read(request)?;
     let root = request.catalogue.as_path();

@@ -154,7 +154,7 @@ fn manifests(
         let digest = digest_of_bytes(text.as_bytes());
         if digest != format!("sha256:{}", file.stem) {
             add(format!(
-                "its bytes have the digest {digest}: expected that of its name; restore the file"
+                "the digest of the file is {digest}, expected the digest in its name; restore the file"
             ));
             continue;
         }
@@ -184,7 +184,7 @@ fn manifests(
 fn rows_fault(rows: u64, claims: u64) -> Option<String> {
     match rows {
         0 => {
-            let problem = "no entry has its numbers; add the bundle again, or remove the file";
+            let problem = "no entry has the numbers of this manifest; add the bundle again, or remove the file";
             Some(problem.to_owned())
         }
         rows if rows < claims => Some(format!(

@@ -189,7 +189,7 @@ pub(super) fn results_digest(manifest: &Manifest) -> Option<&str> {
     results.map(|file| file.sha256.as_str())
 }
 
-/// Reason why a manifest is unfinished: a draft, a missing author, or a missing SPDX licence; `None` if finished.
+/// Reason why a manifest is unfinished: a draft, an invalid author, or an unknown licence; `None` if finished.
 pub(super) fn unfinished(manifest: &Manifest) -> Option<String> {
     let licence = manifest.licence.as_deref().unwrap_or_default();
     if manifest.is_unfinished || manifest.authors.is_empty() || licence.is_empty() {

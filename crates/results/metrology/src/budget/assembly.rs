@@ -136,7 +136,7 @@ impl BudgetText {
         Ok(budget)
     }
 
-    /// Expression of the file, or the default product and sum. Its names are the sources, then the measurand.
+    /// Expression of the file, or the default product and sum. The names in the expression are the sources, then the measurand.
     fn model(&self, inputs: &[Input], at: Option<f64>) -> Result<Expression, BudgetError> {
         if let Some(written) = &self.written.expression {
             let mut names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();

@@ -120,7 +120,7 @@ impl Certificate {
         }
     }
 
-    /// Warning for a certificate that had or may have expired on the day of the recording. Dates in one form compare as text.
+    /// Warning for a certificate that had or may have expired on the day of the recording. Dates have one form and are compared as text.
     pub(super) fn expiry(&self) -> Option<String> {
         let (number, until) = (&self.number, self.valid_until.as_ref()?);
         match &self.recorded_on {

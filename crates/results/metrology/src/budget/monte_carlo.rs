@@ -280,7 +280,7 @@ fn shortest(sorted: &[f64], coverage: f64) -> [f64; 2] {
     })
 }
 
-/// Sums of the results of blocks: mean, u and both ends.
+/// Results of each block: mean, u and both ends.
 #[derive(Default)]
 struct Stability {
     results: Vec<[f64; 4]>,

@@ -20,7 +20,7 @@ pub(super) struct Combined {
 /// u² = Σ cᵢ²uᵢ² + 2 ΣΣ cᵢcⱼuᵢuⱼrᵢⱼ. Degrees of freedom by Welch and Satterthwaite, with the inputs of a set as one component (GUM H.2).
 ///
 /// # Reference
-/// GUM 5.1.2, 5.2.2 and G.4.1. The second-order terms are ½ tr((HΣ)²); terms with third derivatives are omitted.
+/// GUM 5.1.2, 5.2.2 and G.4.1. The second-order terms are ½ tr((HΣ)²), H the Hessian and Σ the covariance; third derivatives are omitted.
 pub(super) fn combine(inputs: &[Input], expansion: &Expansion, r: &Correlations) -> Combined {
     let contributions = contributions(inputs, expansion);
     let covariance = |i: usize, j: usize| contributions[i] * contributions[j] * r.get(i, j);
@@ -67,7 +67,7 @@ pub(super) fn contributions(inputs: &[Input], expansion: &Expansion) -> Vec<f64>
     slopes.map(|(input, slope)| slope * input.u).collect()
 }
 
-/// ½ Σ (HΣ)ᵢⱼ (HΣ)ⱼᵢ, and the indices with the greatest |Hᵢⱼ| uᵢuⱼ.
+/// ½ tr((HΣ)²) of the Hessian H and the covariance Σ, and the indices with the greatest |Hᵢⱼ| uᵢuⱼ.
 fn second_order(
     inputs: &[Input],
     expansion: &Expansion,

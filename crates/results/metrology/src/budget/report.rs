@@ -69,7 +69,7 @@ pub struct Budget {
     pub warnings: Vec<String>,
 }
 
-/// Method of an interval. It gets no further variant.
+/// Method of an interval. This type gets no further variant.
 ///
 /// ```
 /// use taceva_metrology::budget::Method;
@@ -137,7 +137,7 @@ pub struct Source {
     pub digest: Option<String>,
 }
 
-/// Correlation of two sources. It gets no further field.
+/// Correlation of two sources. This type gets no further field.
 ///
 /// ```
 /// let one: taceva_metrology::budget::Correlation = serde_json::from_str(r#"{"between": ["a", "b"], "r": -0.5}"#)?;

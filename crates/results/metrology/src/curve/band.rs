@@ -5,7 +5,7 @@ use super::squares::{Square, form};
 use super::undefined::{CurveUndefined, probability};
 use taceva_metrics::distributions::{f_ratio, student_t};
 
-/// Source of a covariance. It gets no further variant: rows are independent or clustered.
+/// Source of a covariance. This type gets no further variant: rows are independent or clustered.
 ///
 /// ```
 /// use taceva_metrology::curve::CovarianceOf;

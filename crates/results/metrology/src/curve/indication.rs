@@ -19,7 +19,7 @@ const LIMITS: Table = Table {
 /// Least number of repeats for the range b.
 const LEAST_REPEATS: usize = 3;
 
-/// Indicated force and true force, in the same unit. It gets no further field.
+/// Indicated force and true force, in the same unit. This type gets no further field.
 ///
 /// ```
 /// use taceva_metrology::curve::Indication;
@@ -182,7 +182,7 @@ pub struct IndicationSummary {
     pub median_abs: f64,
     /// 95th percentile of |q| in %, interpolated between neighbours.
     pub p95_abs: f64,
-    /// Share of presses with |q| of at most 3 %, the limit of the last row.
+    /// Share of presses with |q| of at most 3 %, the limit in the last row of the table.
     pub share_within_3: f64,
 }
 

@@ -216,8 +216,8 @@ impl ProvingFigures {
         LIMITS.standing(&figures, may_have)
     }
 
-    /// Relative standard uncertainty of a level, as a ratio: √Σw² over reference (`machine`, its U/2), rotation, b'/√3, resolution/(F√6), c/√3,
-    /// f_0, `temperature` and f_c. Missing figures count as 0.
+    /// Relative standard uncertainty of a level, as a ratio: √Σw² over the reference (`machine`, half of its U), rotation, b'/√3, resolution/(F√6),
+    /// c/√3, f_0, `temperature` and f_c. Missing figures count as 0.
     ///
     /// # Panics
     /// If there is no level with this index.

@@ -1,14 +1,14 @@
-//! Finds published numbers that are comparable with ours: same sensor, quantity, unit and definition.
+//! Finds published numbers that are comparable with results of this program: same sensor, quantity, unit and definition.
 
 use taceva_core::Unit;
 
 use super::definition::of as definition_of;
 use super::{Published, Sensor};
 
-/// Definitions of this program that equal the definition of the same metric in the catalogue. Others are not comparable.
+/// Definitions of this program that equal the definition of the same metric in the catalogue. Other definitions are not comparable.
 ///
-/// Success rates are excluded, because ours depend on the number of spacings in a scene, and fewer spacings are easier to predict. Robustness over the surface
-/// is excluded too. Its definition is unclear, because the published table differs from half the sum of the numbers in the figure.
+/// Success rates are excluded, because they depend on the number of spacings in a scene, and fewer spacings are easier to predict. Robustness over the surface
+/// is excluded, because the published table differs from half the sum of the numbers in the figure, which leaves the definition unclear.
 const SAME: [&str; 6] = [
     "mae/1",
     "r2/1",
@@ -19,8 +19,8 @@ const SAME: [&str; 6] = [
 ];
 
 impl Sensor {
-    /// Published number of a metric and channel that is comparable with our number of `definition` and `unit`. `None` without a published number, or if its
-    /// definition differs.
+    /// Published number of a metric and channel that is comparable with a number of `definition` and `unit`. `None` without a published number, or if
+    /// its definition differs.
     pub fn published_alike(
         &self,
         metric: &str,

@@ -96,7 +96,7 @@ pub struct Measured {
     pub traceability: Vec<String>,
 }
 
-/// Table of an entry for numbers of bundles. It gets no further variant: samples are measured, not measured, or of unknown origin.
+/// Table of an entry for numbers of bundles. This type gets no further variant: samples are measured, not measured, or of unknown origin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
     /// `[[measured]]`: samples that a real sensor recorded.

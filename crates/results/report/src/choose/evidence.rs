@@ -183,7 +183,7 @@ impl Choice {
         sentences
     }
 
-    /// Sentence on a significant difference: `a is shown to be better than b in MAE of Fz (p = 0.001)`.
+    /// Sentence on a significant difference: `a is shown to be better than b in MAE of Fz (p by Holm 0.001)`.
     fn shown(&self, better: &str, than: &str) -> Option<String> {
         let of_both = self.evidence.iter().flatten();
         let of_both = of_both.filter(|of| of.better == better && of.than == than);

@@ -68,7 +68,7 @@ fn thickness(sensor: &Sensor, property: Property) -> Option<Inexact> {
     })
 }
 
-/// Least and greatest possible value of `number`; `None` for about this number.
+/// Least and greatest possible value of `number`; `None` for an approximate number.
 const fn ends(bound: Roughly, number: f64) -> Option<[f64; 2]> {
     match bound {
         Roughly::Above => Some([number, f64::INFINITY]),

@@ -12,13 +12,13 @@ pub(super) fn barred(sensor: &Sensor, needs: &[Need]) -> Option<String> {
         .flat_map(|need| need.properties().map(move |property| (need, property)));
     let mut barred = properties.filter_map(|(need, property)| {
         let reason = property.standing(sensor).reason()?;
-        Some(format!("`{}` looks at {property}: {reason}", need.words))
+        Some(format!("`{}` uses {property}: {reason}", need.words))
     });
     barred.next()
 }
 
-/// True if the number of `sensor` is known and does not meet `bound`, or if no value that its inexact number allows does. A greatest tested depth or force need
-/// not be a limit.
+/// True if the number of `sensor` is known and does not meet `bound`, or if no possible value of an inexact number meets `bound`. A greatest tested
+/// depth or force need not be a limit.
 pub(super) fn is_unmet(sensor: &Sensor, bound: &Bound) -> bool {
     match bound.property.of(sensor) {
         Some(value) => !bound.property.is_reached() && !bound.holds(value),

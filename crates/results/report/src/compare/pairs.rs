@@ -12,7 +12,7 @@ use taceva_results::{Interval, SampleChannel, Samples, Score};
 
 /// Compares mean absolute errors in pairs, or returns the reason why this is impossible.
 ///
-/// Pairing requires three conditions. Both results name the same truth, or neither names a truth. Both have the same ids with bit-equal truth. The
+/// Pairing requires three conditions. Both results name the same truth, or neither names a truth. Both results have the same ids with bit-equal truth. The
 /// mean of the sample errors equals the score, otherwise the table belongs to other results. Two sensors pressed by the same plan share ids and
 /// commanded positions, but not samples.
 ///
@@ -142,8 +142,8 @@ impl Clusters {
     }
 }
 
-/// Rows of the `n` samples of a score: all rows with a prediction of each channel, or only rows of the calibration. `None` if neither number of rows
-/// equals `n`.
+/// Rows of the `n` samples of a score: all rows with truth and prediction of each channel, or only rows of the calibration. `None` if neither
+/// number of rows equals `n`.
 fn scored(samples: &Samples, channels: &[SampleChannel<'_>], n: u64) -> Option<Vec<usize>> {
     let paired = |rows: Vec<usize>| -> Vec<usize> {
         let mut rows = rows;

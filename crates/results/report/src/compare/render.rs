@@ -144,7 +144,7 @@ impl Comparison {
         out
     }
 
-    /// Values and verdict of a pair on one line: `GelSight 0.041, TacTip 0.053: GelSight better by 0.012 N (99 % 0.004…0.020, p = 0.004); p = 0.001 alone`.
+    /// Values and verdict of a pair on one line: `GelSight 0.041, TacTip 0.053: GelSight better by 0.012 N (99 % 0.004…0.020, p = 0.004); p 0.001 alone, 0.004 by Holm`.
     fn line(&self, answer: &Answer) -> String {
         let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), numeral);
         let [a, b] = [answer.sides.a, answer.sides.b].map(|at| self.names[at].as_str());

@@ -206,7 +206,7 @@ fn unproven(studies: &[Study], axes: &[Axis]) -> String {
     out
 }
 
-/// Ratio to the best value, and the value itself, for each of `values`; `None` for an absent value.
+/// Ratio to the best value, and the value itself, for each of `values`; `None` for an absent or negative value.
 pub(super) fn shares(values: &[Option<f64>], better: Better) -> Vec<Option<(f64, f64)>> {
     // A share of a negative number has no meaning.
     let values = values

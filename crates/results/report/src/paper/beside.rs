@@ -1,4 +1,4 @@
-//! Our values next to the values that the study prints.
+//! Values of this program next to the values that the study prints.
 
 use crate::catalogue::{Published, find};
 use crate::number::{FormattedValue, fixed};
@@ -34,7 +34,7 @@ impl Digits {
     }
 }
 
-/// Our score of a metric and channel next to the published number; a dash if our score is missing.
+/// Score of a metric and channel next to the published number; a dash if the score is missing.
 pub(super) fn cell(
     studies: &[Study],
     scores: &ScoreTable,
@@ -56,7 +56,7 @@ pub(super) fn cell(
     Cell::Estimate(estimate)
 }
 
-/// Our value next to a published value.
+/// Value of this program next to a published value.
 pub(super) fn beside(ours: Option<f64>, printed: Option<f64>, digits: Digits) -> Estimate {
     let below = printed.map(|printed| {
         let shown = digits.print(printed);

@@ -1,4 +1,4 @@
-//! Numbers that the study publishes in its figures, next to ours.
+//! Numbers that the study publishes in its figures, next to numbers of this program.
 
 use std::collections::BTreeMap;
 
@@ -22,7 +22,7 @@ struct Quantity {
     digits: Digits,
 }
 
-/// One table for each figure, with our numbers, the numbers of the study, and the name of the figure.
+/// One table for each figure, with numbers of this program, the numbers of the study, and the name of the figure.
 pub(super) fn all(studies: &[Study], scores: &ScoreTable) -> Vec<(String, Table)> {
     let sheet = Sheet { studies, scores };
     let quantity = |name: &str, metric, channel, digits| Quantity {

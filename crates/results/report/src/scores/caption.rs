@@ -63,7 +63,7 @@ impl ScoreTable {
         format!("{what} of {}{samples}{intervals}.", self.subjects())
     }
 
-    /// Sensors and models of the caption: `GelSight (ridge)`, `4 sensors`, `3 models of GelSight`.
+    /// Sensors and models of the caption: `GelSight (ridge)`, `4 sensors`, `3 results of GelSight`.
     fn subjects(&self) -> String {
         let sensors: BTreeSet<&str> = self.about.iter().map(|of| of.sensor.as_str()).collect();
         match (self.about.as_slice(), sensors.len()) {

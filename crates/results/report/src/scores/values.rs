@@ -193,7 +193,7 @@ impl Note {
         let reason = &self.reason;
         let is_untested = Standing::SkillUnknown.phrase() == Some(reason.as_str());
         if self.word == UNPROVEN && is_untested {
-            return "‡: no test shows whether the predictions behind it are better than the mean of the labels; verdicts use it like other numbers.".to_owned();
+            return "‡: no test shows whether the predictions behind the number are better than the mean of the labels; verdicts use the number like others.".to_owned();
         }
         let word = match self.word {
             BARRED => "†, excluded from verdicts",

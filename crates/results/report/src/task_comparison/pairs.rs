@@ -62,7 +62,7 @@ struct Part {
 impl Parts {
     /// Part of the score for each cluster, or the reason why a cluster has no part.
     fn of(side: Subject<'_>) -> Result<Parts, &'static str> {
-        const SOME_CLUSTERS: &str = "has clusters without a part in it";
+        const SOME_CLUSTERS: &str = "has clusters without a part in the score";
         let left_out = &side.score.left_out;
         let value = side.score.estimate.value.ok_or(SOME_CLUSTERS)?;
         if side.task.clusters.is_empty() {

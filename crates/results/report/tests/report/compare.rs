@@ -183,8 +183,7 @@ fn a_score_without_skill_has_no_answer_but_its_reason() {
         .iter()
         .map(|answer| answer.reason.as_deref())
         .collect();
-    let reason =
-        "none: not better than predicting the mean: its skill is not shown to be above zero";
+    let reason = "none: not better than predicting the mean: the skill of the model is not shown to be above zero";
     assert_eq!(reasons, [None, Some(reason), Some(reason)]);
     assert!(comparison.answers[0].difference.is_some());
     let decision = &comparison.decisions()[0];

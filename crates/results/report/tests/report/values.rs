@@ -134,7 +134,7 @@ fn published_numbers_of_one_row_say_whether_source_conditions_and_definition_are
     );
     assert!(has_note(
         &table,
-        "‡: no test shows whether the predictions behind it"
+        "‡: no test shows whether the predictions behind the number"
     ));
 }
 

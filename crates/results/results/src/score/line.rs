@@ -80,7 +80,7 @@ impl ScoreLine<'_> {
         Better::named(&self.name)
     }
 
-    /// True for the reference constant of a score. It is not a score of the model.
+    /// True for the reference constant of a score, which is not a score of the model.
     pub fn is_reference(&self) -> bool {
         matches!(
             self.name.as_str(),

@@ -52,7 +52,8 @@ impl DepthMap {
     /// Map of `rows` × `columns` depths in mm, row by row. Negative depths are kept.
     ///
     /// # Errors
-    /// [`DepthError::NoPixel`], [`DepthError::Pixels`] for another number of depths, [`DepthError::Depth`] for an infinite depth.
+    /// [`DepthError::NoPixel`], [`DepthError::Pixels`] for another number of depths, [`DepthError::Depth`] for an infinite or too great
+    /// depth.
     pub fn new(rows: usize, columns: usize, mm: Vec<f64>) -> Result<DepthMap, DepthError> {
         if rows == 0 || columns == 0 {
             return Err(DepthError::NoPixel { rows, columns });

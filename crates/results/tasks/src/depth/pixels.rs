@@ -1,4 +1,4 @@
-//! Exact sums of one pair of depth maps.
+//! Exact sums of one pair of depth maps, with t the true and p the predicted depth.
 
 use taceva_metrics::{Dyadic, ExactSum};
 
@@ -16,9 +16,9 @@ pub(super) type DepthTotals = Totals<SUMS, COUNTS>;
 /// Indices of the sums and counts of an area: all valid pixels, or valid pixels with contact in the truth.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Area {
-    /// Sum of |t − p|, mm; Σ(t − p) and Σ(t − p)² follow.
+    /// Index of Σ|t − p|, mm; Σ(t − p) and Σ(t − p)² follow.
     pub(super) sums: usize,
-    /// Number of pixels.
+    /// Index of the number of pixels.
     pub(super) pixels: usize,
     /// Index of the greatest error.
     pub(super) greatest: usize,
@@ -62,7 +62,7 @@ pub(super) const BOTH: usize = 3;
 pub(super) const EITHER: usize = 4;
 /// Index of the number of maps with contact in truth or prediction.
 pub(super) const CONTACT_MAPS: usize = 5;
-/// Index of the number of maps with valid pixels and no contact in either.
+/// Index of the number of pairs of maps with valid pixels and no contact in either map.
 pub(super) const EMPTY_MAPS: usize = 6;
 /// Index of the number of normals.
 pub(super) const NORMALS: usize = 7;
@@ -170,7 +170,7 @@ pub(super) fn root_mean_square(totals: &DepthTotals, area: Area) -> Option<f64> 
     (pixels > 0).then(|| squares.root_over(&Dyadic::from(pixels)))
 }
 
-/// √(Σ(t − s p)² / n) with the factor s = Σ t p / Σ p² that minimises it, rounded once; `None` without a pixel.
+/// √(Σ(t − s p)² / n) with the factor s = Σ t p / Σ p² that minimises the root, rounded once; `None` without a pixel.
 pub(super) fn scaled_root_mean_square(totals: &DepthTotals) -> Option<f64> {
     let pixels = totals.counts[ALL.pixels];
     let sum = |index: usize| totals.sums[index].to_dyadic();

@@ -36,7 +36,7 @@ pub struct DepthState {
     pub(super) greatest_of_constant: [f64; 2],
 }
 
-/// State before its checks. Its counts may contradict each other.
+/// State before its checks, with counts that may contradict each other.
 #[derive(Deserialize)]
 struct Stored {
     task: DepthTask,
@@ -159,19 +159,19 @@ impl DepthState {
         self.count(ALL_MAPS)
     }
 
-    /// Number of pairs of maps without a pixel that is valid in both. No score includes them.
+    /// Number of pairs of maps without a pixel that is valid in both maps. No score includes these pairs.
     #[must_use]
     pub fn maps_without_pixel(&self) -> u64 {
         self.count(ALL_MAPS) - self.count(MAPS)
     }
 
-    /// Number of pairs of maps with valid pixels and no contact in either. `contact_iou` omits these pairs.
+    /// Number of pairs of maps with valid pixels and no contact in either map. `contact_iou` omits these pairs.
     #[must_use]
     pub fn maps_without_contact(&self) -> u64 {
         self.count(EMPTY_MAPS)
     }
 
-    /// Number of valid pixels with a negative depth in truth or prediction. Scores include them.
+    /// Number of valid pixels with a negative depth in truth or prediction. Scores include these pixels.
     #[must_use]
     pub fn negative_pixels(&self) -> u64 {
         self.count(NEGATIVE)

@@ -9,7 +9,7 @@ use crate::vector::GREATEST_MM;
 
 /// Definition of a task of depth maps: contact gate, pixel size, constant to beat.
 ///
-/// By default the gate is 0.02 mm, without pixel size and constant.
+/// By default the gate is 0.02 mm, and no pixel size and no constant is given.
 ///
 /// ```
 /// use taceva_tasks::depth::{DepthMap, DepthTask};
@@ -27,7 +27,7 @@ pub struct DepthTask {
     constant: Option<DepthMap>,
 }
 
-/// Task before its checks. Its numbers may be out of range.
+/// Task before its checks, with numbers that may be out of range.
 #[derive(Deserialize)]
 struct Stored {
     gate_mm: f64,

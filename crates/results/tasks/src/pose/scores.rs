@@ -10,7 +10,7 @@ use crate::undefined::Undefined;
 /// Totals of all clusters of poses, and totals without each cluster.
 type Clusters<'a> = LeaveOneOut<'a, 7, 4>;
 
-/// Name of an axis with a sum and with bins.
+/// Names of the axes with a sum of differences.
 const AXIS_NAMES: [&str; 3] = ["x", "y", "z"];
 /// Names of the axes with bins.
 const BIN_NAMES: [&str; 3] = ["x", "y", "yaw"];

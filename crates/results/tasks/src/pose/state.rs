@@ -48,7 +48,7 @@ pub struct PoseTask {
     pub(super) points: Vec<[f64; 3]>,
 }
 
-/// Task before its checks. Its points may be NaN or infinite.
+/// Task before its checks, with points that may be NaN or infinite.
 #[derive(Deserialize)]
 struct StoredTask {
     thresholds: Option<Thresholds>,
@@ -109,7 +109,7 @@ pub struct PoseState {
     pub(super) bins: [Vec<u64>; 3],
 }
 
-/// State before its checks. Its counts may contradict each other.
+/// State before its checks, with counts that may contradict each other.
 #[derive(Deserialize)]
 struct Stored {
     task: PoseTask,

@@ -8,9 +8,9 @@ use crate::quotient::ratio;
 pub(super) struct OneWay {
     distances: ExactSum,
     squares: ExactSum,
-    /// Number of distances below τ.
+    /// Number of distances below the threshold τ.
     below: u64,
-    /// Number of distances of τ or below.
+    /// Number of distances of the threshold τ or below.
     up_to: u64,
     /// Number of points.
     points: u64,

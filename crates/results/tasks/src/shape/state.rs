@@ -80,7 +80,7 @@ pub struct ShapeState {
     clusters: ByCluster<ShapeTotals>,
 }
 
-/// State before its checks. τ and counts may be out of range.
+/// State before its checks. The threshold τ and counts may be out of range.
 #[derive(Deserialize)]
 struct Stored {
     task: ShapeTask,

@@ -6,7 +6,7 @@ use super::Reader;
 use crate::budget::error::{BudgetError, BudgetProblem};
 use crate::budget::schema::WrittenSource;
 
-/// Figures that averaging readings at one place does not reduce.
+/// Figures that a mean of several readings at one place does not reduce.
 const LASTING: [&str; 7] = [
     "error",
     "error.between",

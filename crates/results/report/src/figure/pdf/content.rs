@@ -160,7 +160,7 @@ impl Painter {
         }
     }
 
-    /// Position on the page. Its y axis points upwards, the y axis of a canvas downwards.
+    /// Position on the page, whose y axis points upwards. The y axis of a canvas points downwards.
     fn at(&self, [x, y]: [f64; 2]) -> [f32; 2] {
         [number(x), number(self.height - y)]
     }

@@ -83,7 +83,7 @@ fn skill(studies: &[Study]) -> String {
     )
 }
 
-/// Standing with its meaning: `“not better than predicting the mean” (its skill is not shown to be above zero)`.
+/// Standing with its meaning: `“not better than predicting the mean” (the skill of the model is not shown to be above zero)`.
 fn explained(standing: Standing) -> Option<String> {
     let (mark, reason) = standing.reason()?.split_once(": ")?;
     Some(format!("“{mark}” ({reason})"))

@@ -100,7 +100,7 @@ fn methods_say_that_only_scores_with_skill_are_compared_and_which_marks_there_ar
     assert!(unmarked.contains("No score here is excluded"));
     studies[0].scores[0].standing = taceva_metrics::Standing::NoSkill;
     let marked = page(&studies);
-    assert!(marked.contains("are marked “not better than predicting the mean” (its skill is not shown to be above zero) and are \
+    assert!(marked.contains("are marked “not better than predicting the mean” (the skill of the model is not shown to be above zero) and are \
         excluded from comparisons"));
 }
 
