@@ -17,7 +17,7 @@ use crate::source::Source;
 
 /// Number of rows converted to cells at once.
 const ROWS_AT_ONCE: u64 = 64;
-/// First bytes of a file with a footer. The stream follows them.
+/// First bytes of a file with a footer, followed by the stream.
 const FILE_MARK: &[u8] = b"ARROW1\0\0";
 /// Maximum number of batches of a file.
 const BATCHES: usize = 1 << 20;

@@ -190,7 +190,7 @@ pub fn map_of_png(png: &[u8], invalid: Option<f64>) -> Result<Vec<u8>, String> {
     let info = frame.info();
     if kind != ImageKind::Png || info.format.samples() != 1 {
         return Err(format!(
-            "a depth map is a gray PNG, expected 16 bits, found {} {info}",
+            "a depth map is a gray PNG of 8 or 16 bits, found {} {info}",
             kind.extension()
         ));
     }

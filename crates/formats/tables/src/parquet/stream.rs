@@ -146,7 +146,7 @@ impl Stream {
         })
     }
 
-    /// Opens the page at the cursor of `file`. In version 2, the levels are not packed. In version 1, they are packed after their length.
+    /// Opens the page at the cursor of `file`. In version 2, the levels are not packed. In version 1, packed levels follow their length.
     fn opened(
         &self,
         header: &PageHeader,

@@ -233,7 +233,7 @@ impl<'a> Cdr<'a> {
         }
     }
 
-    /// Bytes of a text. The length of the text precedes them.
+    /// Bytes of a text, which follow the length of the text.
     fn text_bytes(&mut self) -> Result<&'a [u8], String> {
         let length = u32::from_le_bytes(self.number()?) as usize;
         self.take(length)
