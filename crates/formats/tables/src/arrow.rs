@@ -170,7 +170,7 @@ impl ArrowTable {
     }
 
     /// Calls `each` with each row of `sorted` and the bytes in the column `name`, such as `image.bytes`; [`None`] if the cell is null. Keeps one cell
-    /// or one compressed buffer in memory.
+    /// in memory, or the decompressed buffers of the column in one batch.
     ///
     /// `sorted` must be ascending. A row listed twice is passed twice.
     ///

@@ -48,7 +48,7 @@ enum Body {
 }
 
 impl Stream {
-    /// Cells of `chunk`; `None` if a page is not plain.
+    /// Cells of `chunk`; `None` if the cells are not byte strings outside lists, or a page is not plain.
     pub(super) fn new(
         source: &Source,
         chunk: &ColumnChunkMetaData,

@@ -161,7 +161,7 @@ impl<'a> Cdr<'a> {
         Ok(())
     }
 
-    /// Field as a cell; a list if it has several elements.
+    /// Field as a cell; a list if the field is an array.
     fn cell(&mut self, schema: &RosSchema, field: &Field) -> Result<Cell, String> {
         if field.count == Count::One {
             return self.one(schema, field.kind);
