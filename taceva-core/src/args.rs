@@ -107,7 +107,7 @@ impl Args {
     /// Value of `key`, a number in the declared unit.
     ///
     /// # Panics
-    /// Under the condition of [`whole`](Args::whole).
+    /// If the driver does not declare `key` as a number, required or with a default. This is a bug in the driver.
     pub fn number(&self, key: &str) -> f64 {
         match self.get(key) {
             Some(&ArgValue::Number(value)) => value,
@@ -118,7 +118,7 @@ impl Args {
     /// Value of `key`: a text, a path or a choice.
     ///
     /// # Panics
-    /// Under the condition of [`whole`](Args::whole).
+    /// If the driver does not declare `key` as one of these types, required or with a default. This is a bug in the driver.
     pub fn text(&self, key: &str) -> &str {
         match self.get(key) {
             Some(ArgValue::Text(value)) => value,
@@ -129,7 +129,7 @@ impl Args {
     /// Value of the switch `key`.
     ///
     /// # Panics
-    /// Under the condition of [`whole`](Args::whole).
+    /// If the driver does not declare `key` as a flag, required or with a default. This is a bug in the driver.
     pub fn flag(&self, key: &str) -> bool {
         match self.get(key) {
             Some(&ArgValue::Flag(value)) => value,
@@ -189,7 +189,7 @@ fn parts(text: &str) -> Vec<String> {
 }
 
 impl fmt::Display for Args {
-    /// Writes the canonical text: every argument, defaults included, sorted by key. [`parse`](Args::parse) reads this text.
+    /// Writes the canonical text: every argument with a value, defaults included, sorted by key. [`parse`](Args::parse) reads this text.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (position, (key, value)) in self.values.iter().enumerate() {
             let separator = if position == 0 { "" } else { ";" };

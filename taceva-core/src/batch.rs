@@ -101,7 +101,7 @@ impl Batch {
     /// The same batch with the recording of each sample, for samples of several recordings.
     ///
     /// # Panics
-    /// If the length differs from the number of rows.
+    /// If the length differs from the number of rows, or a row has no name.
     ///
     /// ```
     /// use taceva_core::{Batch, Channel, Channels, Column, Labels};
@@ -127,7 +127,7 @@ impl Batch {
     /// The same batch with the name of each sample, for intervals over single samples.
     ///
     /// # Panics
-    /// If the length differs from the number of rows.
+    /// If the length differs from the number of rows, or a row has no name.
     ///
     /// ```
     /// use taceva_core::{Batch, Channel, Channels, Column, Labels};

@@ -253,7 +253,7 @@ impl<'a> IntoIterator for &'a Channels {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ChannelError {
-    /// The name is too long, or has a character other than letters, digits and `_`.
+    /// The name is too long, does not begin with a letter, or has a character other than letters, digits and `_`.
     Name {
         /// The name as given.
         name: String,

@@ -65,7 +65,7 @@ const STEPS_OF_16_BIT: u64 = 256;
 impl Frame {
     /// Mean luma, (299 R + 587 G + 114 B) / 1000 of each pixel, on the 8-bit scale from 0 to 255; 0 for a frame without pixels.
     ///
-    /// The sum is exact, and the quotient is rounded once. This holds up to 35 · 10⁹ 8-bit pixels or 137 · 10⁶ 16-bit pixels.
+    /// The sum is exact, and the quotient is rounded once, for up to 35 · 10⁹ 8-bit pixels or 137 · 10⁶ 16-bit pixels.
     ///
     /// ```
     /// use taceva_core::{Frame, FrameInfo, PixelFormat};

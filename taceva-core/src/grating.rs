@@ -2,7 +2,7 @@
 
 use crate::display::display;
 
-/// Relief of a grating, with one period in each direction of repetition. It gets no further variant in a compatible version: the metrics of
+/// Relief of a grating, with one period in each direction of repetition. This enum gets no further variant in a compatible version: the metrics of
 /// spatial resolution are defined for these two kinds.
 ///
 /// ```

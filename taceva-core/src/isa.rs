@@ -164,7 +164,7 @@ impl fmt::Display for IsaError {
                 let available = names(&Isa::available()).join(", ");
                 write!(
                     f,
-                    "`{isa}`: this machine does not have it, expected {available}"
+                    "`{isa}`: instruction set absent on this machine, expected {available}"
                 )
             }
         }

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// A length in whole nanometres. It gets no further field: the number is the whole value.
+/// A length in whole nanometres. This type gets no further field: the number is the whole value.
 ///
 /// ```
 /// use taceva_core::Nanometre;

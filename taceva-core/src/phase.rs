@@ -2,7 +2,7 @@
 
 use crate::display::display;
 
-/// Branch of a press. It gets no further variant: an indenter moves in, moves out, or rests, and samples at rest have no branch.
+/// Branch of a press. This enum gets no further variant: an indenter moves in, moves out, or rests, and samples at rest have no branch.
 ///
 /// ```
 /// use taceva_core::Phase;

@@ -15,7 +15,7 @@ pub const STAGED: &str = ".taceva-staged-";
 /// Maximum number of waits for another process that is between its two renames.
 const WAITS: u32 = 2_000;
 const PAUSE: Duration = Duration::from_millis(1);
-/// Resolution of modification times, with a margin. Two changes further apart have different times.
+/// Resolution of modification times, with a margin. Changes that are further apart than this resolution have different times.
 const CLOCK: Duration = Duration::from_secs(2);
 /// Number of attempts to stage a target that another process stages, and the base pause between the attempts.
 const CLAIMS: u32 = 6;
@@ -121,7 +121,7 @@ impl Staged {
     }
 
     /// Replaces the target like [`put_in_place`](Staged::put_in_place), with `exchange` as the exchange of names. `exchange` returns false if the file system
-    /// does not support it.
+    /// does not support exchanges.
     ///
     /// # Errors
     /// Errors of [`put_in_place`](Staged::put_in_place).
@@ -270,7 +270,7 @@ fn former_of(target: &Path) -> Option<PathBuf> {
     all.find(|former| fs::symlink_metadata(former).is_ok_and(|found| !found.is_symlink()))
 }
 
-/// Exchanges two names atomically. Returns false if the file system does not support it.
+/// Exchanges two names atomically. Returns false if the file system does not support exchanges.
 ///
 /// # Errors
 /// [`io::Error`] of the file system.

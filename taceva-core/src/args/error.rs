@@ -3,7 +3,7 @@
 use crate::printable::shown;
 use std::fmt;
 
-/// An argument that the driver rejects. Every text is quoted unchanged from the user.
+/// An argument that the driver rejects. Rejected keys, values and parts are unchanged texts of the user.
 ///
 /// ```
 /// use taceva_core::{ArgError, ArgSpec, Args};

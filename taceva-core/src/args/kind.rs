@@ -39,7 +39,7 @@ pub enum ArgKind {
     Flag,
 }
 
-/// Presence of an argument. It gets no further variant: an omitted argument has a default or no value.
+/// Presence of an argument. This enum gets no further variant: an omitted argument has a default or no value.
 ///
 /// ```
 /// use taceva_core::{ArgSpec, Args, Presence};

@@ -165,7 +165,7 @@ pub trait Tare {
     fn zero(&mut self, deadline: Deadline) -> Result<(), DriverError>;
 }
 
-/// One component of a wrench. It gets no further variant: a wrench has six components.
+/// One component of a wrench. This enum gets no further variant: a wrench has six components.
 ///
 /// ```
 /// use taceva_core::{Axes, Axis};

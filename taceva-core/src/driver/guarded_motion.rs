@@ -75,7 +75,7 @@ impl Guard {
     }
 }
 
-/// End of a guarded motion. It gets no further variant: any other end is an error.
+/// End of a guarded motion. This enum gets no further variant: any other end is an error.
 ///
 /// ```
 /// use std::time::Duration;

@@ -73,7 +73,7 @@ pub struct Certificate {
     pub sha256: Option<String>,
 }
 
-/// Correlation of the uncertainties of two channels, as a certificate states it. It gets no further field.
+/// Correlation of the uncertainties of two channels, as a certificate states it. This type gets no further field.
 ///
 /// ```
 /// use taceva_core::StatedCorrelation;

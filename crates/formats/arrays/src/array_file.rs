@@ -167,7 +167,7 @@ impl ArrayFile {
         groups
     }
 
-    /// Dead links of the file, each with the reason. They are not listed as arrays, and reading them by name is an error.
+    /// Dead links of the file, each with the reason. Dead links are not listed as arrays, and reading a dead link by name is an error.
     ///
     /// ```no_run
     /// # fn of(file: &taceva_arrays::ArrayFile) {

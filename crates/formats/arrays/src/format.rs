@@ -20,7 +20,7 @@ pub enum ArrayFormat {
     Npz,
     /// HDF5 (`.h5`, `.hdf5`, `.hdf`, `.he5`, `.nc4`).
     Hdf5,
-    /// zarr of version 2 or 3: a folder (`.zarr`).
+    /// zarr of version 2 or 3: a folder (`.zarr`), or a ZIP archive of the folder with the same extension.
     Zarr,
     /// MATLAB (`.mat`) of version 5 or 7.3.
     Matlab,

@@ -17,7 +17,7 @@ use crate::source::Source;
 
 /// Number of rows converted to cells at once.
 const ROWS_AT_ONCE: u64 = 64;
-/// First bytes of a file with a footer. The stream follows them.
+/// First bytes of a file with a footer, followed by the stream.
 const FILE_MARK: &[u8] = b"ARROW1\0\0";
 /// Maximum number of batches of a file.
 const BATCHES: usize = 1 << 20;
@@ -170,7 +170,7 @@ impl ArrowTable {
     }
 
     /// Calls `each` with each row of `sorted` and the bytes in the column `name`, such as `image.bytes`; [`None`] if the cell is null. Keeps one cell
-    /// or one compressed buffer in memory.
+    /// in memory, or the decompressed buffers of the column in one batch.
     ///
     /// `sorted` must be ascending. A row listed twice is passed twice.
     ///

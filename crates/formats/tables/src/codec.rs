@@ -67,7 +67,7 @@ pub(crate) fn unpack(codec: Codec, packed: &[u8], size: usize) -> Result<Vec<u8>
     }
 }
 
-/// Reader that unpacks `packed` to `size` bytes while it is read. Block formats are unpacked as a whole, up to [`limits::PAGE_BYTES`].
+/// Reader that unpacks `packed` to `size` bytes piece by piece. LZ4 and bzip2 are unpacked as a whole, up to [`limits::PAGE_BYTES`].
 ///
 /// # Errors
 /// Errors of [`unpack`]. Faults found later are errors of the returned reader.

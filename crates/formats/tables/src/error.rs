@@ -53,7 +53,7 @@ pub enum TableError {
         problem: String,
         /// Number of messages that [`Recording::open_to_cut`](crate::Recording::open_to_cut) reads.
         messages: u64,
-        /// Command of another program that recovers these messages.
+        /// Command of another program that recovers the complete messages.
         remedy: &'static str,
     },
     /// Content that the format allows but this crate does not read.

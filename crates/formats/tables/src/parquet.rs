@@ -62,7 +62,7 @@ impl ParquetTable {
     ///
     /// # Errors
     /// [`TableError::Io`] if the file cannot be read; [`TableError::Damaged`] if it is not a Parquet file or its footer is inconsistent;
-    /// [`TableError::TooLarge`] if the footer or the table exceeds the limits.
+    /// [`TableError::Unsupported`] for an encrypted footer or unsupported schema; [`TableError::TooLarge`] if the footer or table exceeds the limits.
     pub fn open(path: &Path) -> Result<ParquetTable, TableError> {
         let source = Source::new(path)?;
         let mut file = source.open()?;

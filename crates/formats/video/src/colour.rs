@@ -122,7 +122,7 @@ struct Factors {
 impl Factors {
     /// Computes the factors from the weights K_r and K_b of red and blue in luma.
     ///
-    /// The formulas are R = Y + 2 (1 − K_r) V and B = Y + 2 (1 − K_b) U. G follows from the sum.
+    /// With luma Y and chroma U (blue) and V (red): R = Y + 2 (1 − K_r) V, B = Y + 2 (1 − K_b) U. G follows from Y, the weighted sum of R, G and B.
     fn of(coding: YuvCoding) -> Result<Factors, UnknownMatrix> {
         // Unspecified means BT.601, as in other decoders.
         let (of_red, of_blue) = match coding.matrix.unwrap_or(2) {

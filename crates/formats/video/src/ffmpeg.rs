@@ -1,8 +1,9 @@
 //! Clips decoded by the external program ffmpeg, in any container and codec that ffmpeg supports.
 //!
-//! When a clip is opened, ffmpeg decodes all of it once. This gives the number of frames and their times, and detects damage and changes of size. A visit
-//! decodes the clip again up to the last requested frame. ffmpeg converts no pixels; raw frames arrive in the format of the codec, and this module extracts the
-//! luma. The clip is the standard input of ffmpeg, so ffmpeg receives no file name. It may open only files.
+//! When a clip is opened, ffmpeg decodes the whole clip once. This run gives the number of frames and their times, and detects damage and changes of
+//! size. A visit decodes the clip again up to the last requested frame. ffmpeg converts no pixels; raw frames arrive in the format of the codec, and
+//! this module extracts the luma or converts the colours. The clip is the standard input of ffmpeg, so ffmpeg receives no file name. ffmpeg may open
+//! only files.
 
 mod command;
 mod format;

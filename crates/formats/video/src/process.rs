@@ -1,4 +1,4 @@
-//! Decoder program. Its output arrives in pieces of limited size. The program is killed after a timeout without output, or when it is no longer needed.
+//! Decoder program, whose output arrives in pieces of limited size. The program is killed after a timeout without output, or when no longer needed.
 
 use std::io::{self, BufRead, BufReader, Read};
 use std::process::{Child, Command, ExitStatus, Stdio};

@@ -35,7 +35,7 @@ use crate::packets::JpegClip;
 pub struct Decoders {
     /// Path of the program ffmpeg, which decodes all other codecs and containers; `None` if not available.
     pub ffmpeg: Option<PathBuf>,
-    /// Program for AV1 and its arguments; `None` if not available. It must run `taceva_video::av1::serve` between standard input and output.
+    /// Program for AV1 and its arguments; `None` if not available. The program must run `taceva_video::av1::serve` between standard input and output.
     pub av1: Option<Vec<OsString>>,
 }
 

@@ -76,8 +76,9 @@ impl Dataset {
     /// Opens the recording at `path`. Verifies and loads the table; frames are verified when read.
     ///
     /// # Errors
-    /// [`DatasetError::NoDataset`] if the folder contains no dataset or the recording was not closed; [`DatasetError::Version`] if the format is newer;
-    /// [`DatasetError::Digest`] or [`DatasetError::Damaged`] if a file was changed; [`DatasetError::Io`].
+    /// [`DatasetError::NoDataset`] if the folder contains no dataset or the recording was not closed; [`DatasetError::Version`] if this build
+    /// cannot read the format; [`DatasetError::Seal`], [`DatasetError::Digest`] or [`DatasetError::Damaged`] if a file was changed; [`DatasetError::Text`];
+    /// [`DatasetError::Io`].
     pub fn open(path: &Path) -> Result<Dataset, DatasetError> {
         let folder = HeldFolder::open(path)?;
         if !folder.has(layout::HEADER) {

@@ -136,7 +136,7 @@ impl Journal {
 
     /// Appends a record and returns its sequence number once it is durable.
     ///
-    /// After an error, the state of the file is unknown until the journal is reopened. Every later append therefore fails too.
+    /// After a failed write, the state of the file is unknown until the journal is reopened. Every later append therefore fails too.
     pub(crate) fn append(&mut self, kind: RecordKind, payload: &[u8]) -> Result<u64, DatasetError> {
         if self.has_failed {
             let earlier = io::Error::other("an earlier write failed; reopen the recording");

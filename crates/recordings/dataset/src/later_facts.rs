@@ -81,7 +81,7 @@ pub fn add_device_warnings(recording: &Path, warnings: &[String]) -> io::Result<
     }
 }
 
-/// Adds settings that were measured during a session of the unfinished recording at `recording`. They replace the settings of earlier sessions.
+/// Adds settings that were measured during a session of the unfinished recording at `recording`. Replaces earlier values of these settings.
 ///
 /// # Errors
 /// Errors of the file system.

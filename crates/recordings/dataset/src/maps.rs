@@ -48,7 +48,7 @@ impl StoredMap {
     /// Map with the stored bytes `bytes`. `facts` states the unit and scale of the stored numbers.
     ///
     /// # Errors
-    /// Error message if the bytes are not a map, or if the unit in `facts` is not a length.
+    /// Error message if the bytes are not a map, or if `facts` states no unit of length or no finite scale.
     pub fn of(bytes: &[u8], facts: &MapFacts) -> Result<StoredMap, String> {
         let unit = facts.length()?;
         let parts = parts_of_map(bytes)?;
@@ -190,7 +190,7 @@ pub fn map_of_png(png: &[u8], invalid: Option<f64>) -> Result<Vec<u8>, String> {
     let info = frame.info();
     if kind != ImageKind::Png || info.format.samples() != 1 {
         return Err(format!(
-            "a depth map is a gray PNG, expected 16 bits, found {} {info}",
+            "a depth map is a gray PNG of 8 or 16 bits, found {} {info}",
             kind.extension()
         ));
     }

@@ -1,8 +1,8 @@
 //! Packs: files with consecutive frames of a recording, each frame at a known offset.
 //!
-//! Each entry of a pack is a complete image file, readable with its offset and length. The picture is the frame or, if that is smaller, its difference to the
-//! first frame of the pack, number by number with wrapping. Static parts of the pictures are thus stored once. A pack only grows. Bytes after the last frame in
-//! the journal were never acknowledged, and are cut when the recording is resumed.
+//! Each entry of a pack is a complete image file, readable with its offset and length. The picture is the frame, or its difference to the first frame
+//! of the pack if the difference is smaller. Numbers of a difference wrap. Static parts of the pictures are thus stored once. A pack only grows. Bytes
+//! after the last frame in the journal were never acknowledged, and are cut when the recording is resumed.
 
 use std::fmt;
 use std::fs::{self, File, OpenOptions};

@@ -15,7 +15,7 @@ use crate::zero_table::zeros_clause;
 pub struct Session {
     /// Boot id of the machine whose clock stamps the samples; empty if unknown.
     pub boot_id: String,
-    /// Start of the session on that clock, s.
+    /// Start of the session on the clock of the machine, s.
     pub begun_s: f64,
     /// Name of the sensor unit.
     pub unit: String,

@@ -176,8 +176,8 @@ impl ForeignTable {
         }
     }
 
-    /// Names that may contain the unit of `name`, a number in the column `base`: first the name of the element, then the column name. For the column `value`,
-    /// also the name of the file.
+    /// Names that may contain the unit of `name`, a number in the column `base`: first the name of the element, then the column name. The name
+    /// of the file replaces the column name `value`.
     pub(crate) fn names_with_units(&self, name: &str, base: &str) -> Vec<String> {
         let at = name.strip_prefix(base).unwrap_or_default();
         let at: Option<usize> = at.trim_matches(['[', ']']).parse().ok();

@@ -82,7 +82,7 @@ impl SourceFolder {
     }
 }
 
-/// Files below `folder`, sorted by name. Does not follow links to folders.
+/// Files below `folder`, sorted by name. Skips datasets and links to folders, and stops above the limit on files.
 pub(crate) fn files_below(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
     let mut folders = vec![folder.to_owned()];

@@ -2,8 +2,8 @@
 
 use crate::display::display;
 
-/// Source of the readings of a driver. Every output based on these readings names the source. It gets no further variant in a compatible
-/// version, because every reader must handle each source.
+/// Source of the readings of a driver. Every output based on these readings names the source. This enum gets no further variant in a
+/// compatible version, because every reader must handle each source.
 ///
 /// ```
 /// use taceva_core::DriverSource;

@@ -21,8 +21,8 @@ pub struct RobotFacts {
     pub speed_max: Option<Speed>,
     /// Repeatability of a pose: one standard deviation per axis.
     pub repeatability: Option<Millimetre>,
-    /// Noise of a reported pose about its target: one standard deviation per axis. If `None`, a real robot counts with its repeatability, a simulated
-    /// robot with 0.
+    /// Noise of a reported pose about its target: one standard deviation per axis. If `None`, the noise is the repeatability for a real robot,
+    /// and 0 for a simulated robot.
     pub pose_noise: Option<Millimetre>,
     /// Deceleration after a halt, mm/s².
     pub deceleration_mm_s2: Option<f64>,

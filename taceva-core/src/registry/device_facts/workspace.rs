@@ -2,7 +2,7 @@
 
 use crate::geometry::Point;
 
-/// Box that contains all allowed positions of a tip, faces included, in the sensor's frame. It gets no further field: two corners define a box.
+/// Box that contains all allowed positions of a tip, faces included, in the sensor's frame. This type gets no further field: two corners define a box.
 ///
 /// ```
 /// use taceva_core::{Millimetre, Point, Workspace};

@@ -62,7 +62,7 @@ impl GlobalHeap {
                     limits::READ_BYTES,
                 ));
             }
-            // Never written.
+            // An element of length 0 was never written.
             all.push(if length == 0 {
                 Vec::new()
             } else {

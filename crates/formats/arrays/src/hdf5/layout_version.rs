@@ -1,6 +1,6 @@
-//! Patch for data layout version 5, which HDF5 2.0 writes for filtered chunks. `hdf5-pure` does not support this version, so it is read as version 4.
+//! Patch for data layout version 5, which HDF5 2.0 writes for filtered chunks. `hdf5-pure` does not support version 5, so 5 is replaced by 4.
 //!
-//! Both versions have the same message. They differ only in the width of chunk sizes in an index, which the header of the index states.
+//! Both versions have the same message. Only the width of chunk sizes in an index differs, which the header of the index states.
 
 use super::lookup3::lookup3;
 

@@ -80,8 +80,8 @@ impl Hdf5Writer {
     /// Begins the array `name`, with texts as its attributes. The previous array must be complete.
     ///
     /// # Errors
-    /// [`Problem::Damaged`] if the previous array is incomplete. [`Problem::Unsupported`] for a name that is empty, duplicate or contains `/`, a size
-    /// above 64 bits, or an attribute above 1 MiB. [`Problem::Io`] if the file cannot be written.
+    /// [`Problem::Damaged`] if the previous array is incomplete. [`Problem::Unsupported`] for an invalid or duplicate name, a size above 64 bits,
+    /// or an attribute above 1 MiB. [`Problem::Io`] if the file cannot be written.
     pub fn begin(
         &mut self,
         name: &str,

@@ -12,7 +12,7 @@ use crate::values::{ArrayData, ArrayValues};
 /// Readable variable.
 #[derive(Debug)]
 pub(crate) enum Variable {
-    /// Numbers. MATLAB stores them in the narrowest type that can represent them.
+    /// Numbers, in the narrowest type that can represent the values of the matrix.
     Numbers { element: Element, block: Block },
     /// Rows of a character matrix, each as a text.
     Text { shape: Vec<u64>, lines: Vec<String> },

@@ -124,7 +124,7 @@ impl Tree {
         Ok(names.into_iter().collect())
     }
 
-    /// Size of the file `name` in this folder, bytes.
+    /// Stored size of the file `name` in this folder, bytes. In an archive, 0 if the file does not exist.
     pub(crate) fn file_bytes(&self, name: &str) -> Result<u64, Problem> {
         match self {
             Tree::Folder(folder) => {

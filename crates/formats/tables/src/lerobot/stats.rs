@@ -1,9 +1,9 @@
-//! Statistics of a feature over all rows, for `meta/stats.json`. Policies use them for normalisation.
+//! Statistics of a feature over all rows, for `meta/stats.json`.
 
 use serde_json::{Value, json};
 
-/// Minimum, maximum, mean and standard deviation of each element of a feature, in the unit of the feature. Policies use them for normalisation. The
-/// statistics are not scores, and rounding errors accumulate with each row.
+/// Minimum, maximum, mean and standard deviation of each element of a feature, in the unit of the feature. Policies normalise data by these
+/// statistics. The statistics are not scores, and rounding errors accumulate with each row.
 ///
 /// ```
 /// use taceva_tables::FeatureStats;

@@ -157,7 +157,7 @@ impl LeRobotWriter {
     /// Begins an episode with the task `task`, after ending the previous episode.
     ///
     /// # Errors
-    /// Errors of [`ParquetWriter::create`] and [`ParquetWriter::finish`], if a data file is full.
+    /// Errors of [`ParquetWriter::create`], and of [`ParquetWriter::finish`] if a data file is full. [`TableError::Write`] if a folder cannot be created.
     pub fn begin_episode(&mut self, task: &str) -> Result<(), TableError> {
         let task = match self.tasks.iter().position(|known| known == task) {
             Some(known) => known,

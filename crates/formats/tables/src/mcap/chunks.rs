@@ -81,7 +81,7 @@ impl<'a> Chunks<'a> {
             self.kept.push(kept);
             return Ok(bytes);
         }
-        // The oldest is dropped before the next is unpacked, so memory holds at most `KEPT`.
+        // Drops the least recently used chunk before the next is unpacked, so memory holds at most `KEPT` chunks.
         if self.kept.len() >= KEPT {
             self.kept.remove(0);
         }

@@ -13,7 +13,7 @@ use crate::source::Source;
 
 /// All messages of `channels`, sorted by time, then by position in the file.
 ///
-/// Reads all records if the indices of the file contain fewer messages than the statistics state.
+/// Reads all records if the indices of the file and the statistics state different numbers of messages.
 pub(super) fn index(
     source: &Source,
     contents: &Contents,

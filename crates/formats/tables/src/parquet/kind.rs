@@ -28,8 +28,8 @@ pub enum ColumnKind {
     Text,
     /// Bytes, such as encoded pictures.
     Bytes,
-    /// Times in the unit `d`, `s`, `ms`, `us` or `ns`. They are points in time since 1970-01-01 00:00 (UTC with a time zone, otherwise local time), times of
-    /// day since midnight, and durations. Their cells are [`Cell::Time`](crate::Cell::Time).
+    /// Times in the unit `d`, `s`, `ms`, `us` or `ns`, with cells [`Cell::Time`](crate::Cell::Time): points in time since 1970-01-01 00:00 (UTC with a time
+    /// zone, otherwise local time), times of day since midnight, and durations.
     Time(&'static str),
     /// Lists of cells of this kind.
     List(Box<ColumnKind>),

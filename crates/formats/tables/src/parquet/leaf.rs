@@ -174,7 +174,7 @@ impl Leaf {
         Some((definition, repetition))
     }
 
-    /// Takes the next entry. It is null if its definition level is below the maximum.
+    /// Takes the next entry, which is null if its definition level is below the maximum.
     pub(super) fn take(&mut self) -> Result<Cell, TableError> {
         let Some((definition, _)) = self.peek() else {
             return Err(self.damaged("it has fewer entries than the other columns"));

@@ -117,7 +117,7 @@ enum Form {
     Struct,
 }
 
-/// Number of the last field of a structure. The number of the next field is relative to it.
+/// Number of the last field of a structure. The number of the next field is relative to the last number.
 #[derive(Default)]
 struct Fields {
     last: i32,

@@ -48,7 +48,7 @@ enum Body {
 }
 
 impl Stream {
-    /// Cells of `chunk`; `None` if a page is not plain.
+    /// Cells of `chunk`; `None` if the cells are not byte strings outside lists, or a page is not plain.
     pub(super) fn new(
         source: &Source,
         chunk: &ColumnChunkMetaData,
@@ -146,7 +146,7 @@ impl Stream {
         })
     }
 
-    /// Opens the page at the cursor of `file`. In version 2, the levels are not packed. In version 1, they are packed after their length.
+    /// Opens the page at the cursor of `file`. In version 2, the levels are not packed. In version 1, packed levels follow their length.
     fn opened(
         &self,
         header: &PageHeader,

@@ -161,7 +161,7 @@ impl<'a> Cdr<'a> {
         Ok(())
     }
 
-    /// Field as a cell; a list if it has several elements.
+    /// Field as a cell; a list if the field is an array.
     fn cell(&mut self, schema: &RosSchema, field: &Field) -> Result<Cell, String> {
         if field.count == Count::One {
             return self.one(schema, field.kind);
@@ -233,7 +233,7 @@ impl<'a> Cdr<'a> {
         }
     }
 
-    /// Bytes of a text. The length of the text precedes them.
+    /// Bytes of a text, which follow the length of the text.
     fn text_bytes(&mut self) -> Result<&'a [u8], String> {
         let length = u32::from_le_bytes(self.number()?) as usize;
         self.take(length)

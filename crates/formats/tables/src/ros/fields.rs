@@ -107,7 +107,7 @@ struct Way<'n> {
 }
 
 impl<'n> Way<'n> {
-    /// Path to the field `name`. A time is a single number, and its member `ns` is another.
+    /// Path to the field `name`. A time is a single number, and its member `ns` is another number.
     fn to(schema: &RosSchema, name: &'n str) -> Option<Way<'n>> {
         if let Some((steps, end)) = steps(schema, name) {
             let form = match end.is_some_and(is_time) {

@@ -10,7 +10,7 @@ use crate::error::VideoError;
 use crate::limits;
 use crate::process::{Ended, Running};
 
-/// Command for ffmpeg, with the clip as input and the arguments `output`. ffmpeg passes on every frame of the first video stream unchanged.
+/// Command for ffmpeg, with the first video stream of the clip as input, not rotated, and the arguments `output`.
 pub(super) fn command(path: &Path, program: &Path, output: &[&str]) -> Result<Command, VideoError> {
     let file = File::open(path).map_err(VideoError::io("open", path))?;
     let mut command = Command::new(program);

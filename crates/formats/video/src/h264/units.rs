@@ -1,4 +1,4 @@
-//! Units of an H.264 stream. They have length prefixes in MP4, and start codes for decoders.
+//! Units of an H.264 stream, with length prefixes in MP4 and start codes for decoders.
 
 use super::parameters::Sequence;
 use crate::error::VideoError;

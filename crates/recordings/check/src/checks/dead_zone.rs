@@ -16,10 +16,10 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum number of zero forces under load. They must be at least one in `SHARE` samples.
+/// Minimum number of zero forces under load, which must also be at least one in `SHARE` samples.
 const LEAST: usize = 10;
 const SHARE: usize = 20;
-/// Minimum correlation of nonzero forces with picture changes. It shows that the pictures depend on the load.
+/// Minimum correlation of nonzero forces with picture changes, which shows that the pictures depend on the load.
 const CLEAR: f64 = 0.7;
 /// Picture change above which a picture shows contact, on a scale from 0 (change at rest) to 1 (median change with force). The change at rest is the
 /// quantile 1 / `AT_REST` of the pictures with zero force.

@@ -56,7 +56,7 @@ fn loaded(evidence: &Evidence<'_>, facts: &SignalFacts, load: usize) -> Option<F
     Some(evidence.found(Severity::Warning, message, &pressed))
 }
 
-/// Finds a mean of the rows without contact that is closer to samples with more load than to samples with less.
+/// Finds a mean of the rows without contact that is closer to samples with more load than to samples with less load.
 fn resembling(evidence: &Evidence<'_>, facts: &SignalFacts, load: usize) -> Option<Found> {
     let column = evidence.table.truth(load);
     let rows = facts.distance.iter().enumerate();

@@ -79,7 +79,7 @@ impl Dataset {
         frame.transpose()
     }
 
-    /// Original bytes of the picture without contact, verified; `None` for views side by side.
+    /// Original bytes of the picture without contact, verified; `None` if unknown, and for views side by side.
     pub fn reference_bytes(&self) -> Result<Option<Vec<u8>>, DatasetError> {
         let entry = self.reference_entry();
         entry.map(|entry| self.frame_bytes(&entry)).transpose()

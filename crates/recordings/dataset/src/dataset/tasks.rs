@@ -66,7 +66,7 @@ impl Dataset {
         self.labelled(own.task(), table)
     }
 
-    /// The same dataset with numbers of the task called `name` in the place of all channels, such as depths of places of its maps.
+    /// The same dataset with numbers of the task called `name` in the place of all channels, such as depths at places of the task's maps.
     ///
     /// `labels` has a column for each of `channels`, with a label or none for each row.
     ///

@@ -21,7 +21,7 @@ use agreement::differences;
 pub use agreement::{Difference, differences_of_added};
 use shared_tasks::shared_tasks;
 
-/// Separator between the name of a recording and the name of a sample, contact point or frame of the recording. Names of recordings do not contain it.
+/// Separator between the name of a recording and the name of a sample, contact point or frame. No name of a recording contains this character.
 pub(super) const SEPARATOR: char = '/';
 
 /// Recording that is part of a dataset from [`Dataset::joined`].

@@ -34,10 +34,10 @@ pub struct MappedJoin {
     /// Maximum time difference, ms; `None` for other joins.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance_ms: Option<f64>,
-    /// Lead of this table's clock over the clock of the main table, ms. `None` if it differs by row, or for other joins.
+    /// Lead of this table's clock over the clock of the main table, ms. `None` if the lead differs by row, or for other joins.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lag_ms: Option<f64>,
-    /// Source of an offset that differs by row: the column that contains the offset, or `file = ms` for each file.
+    /// Source of a lead that differs by row: the column that contains the lead, or `file = ms` for each file.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lag_by: Vec<String>,
     /// Treatment of rows of the main table without a match: `drop` or `refuse`.

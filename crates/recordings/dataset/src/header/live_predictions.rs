@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::digest::Digest;
 
-/// Predictions of a model, stored beside a recording in `predictions.csv`. The model made them while frames were taken; they are not labels.
+/// Predictions of a model, stored beside a recording in `predictions.csv`. The model predicted while frames were taken, and its predictions are not labels.
 ///
 /// ```
 /// use taceva_dataset::{Digest, LivePredictions};

@@ -137,7 +137,7 @@ impl RecordingFacts {
 }
 
 impl Header {
-    /// First and last UTC day of the sample times `t_s`, s, or of the sessions of the recording; `None` if the clock gives no date.
+    /// First and last UTC day of the sample times `t_s`, s, or of the sessions of the recording; `None` if no day is known.
     pub fn days(&self, t_s: &[Option<f64>]) -> Option<RangeInclusive<Date>> {
         if self.clock != Clock::Unix {
             let first = self.recorded_on?;

@@ -28,7 +28,7 @@ pub(super) struct Scan {
     later: u8,
 }
 
-/// Limit of a coefficient: twice the greatest of 8-bit pixels, because some encoders overshoot on purpose.
+/// Limit of a coefficient: twice the greatest coefficient of 8-bit pixels, because some encoders overshoot on purpose.
 const GREATEST: i64 = 2_048;
 
 impl Scan {

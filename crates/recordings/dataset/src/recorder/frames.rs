@@ -65,7 +65,7 @@ impl Recorder {
         Ok(entries)
     }
 
-    /// Appends a frame, or its difference to the first frame of the pack if that is smaller.
+    /// Appends a frame, or its difference to the first frame of the pack if the difference is smaller.
     fn append_frame(
         &mut self,
         pack: &mut PackWriter,

@@ -85,7 +85,7 @@ impl Cells<'_> {
         matches!(self, Cells::Name(_) | Cells::Text(_))
     }
 
-    /// Number in a row of a numeric column; `None` if missing.
+    /// Floating-point number in a row; `None` if missing, and for columns of other types, such as counts.
     pub fn number(&self, row: usize) -> Option<f64> {
         match self {
             Cells::Spacing(cells) => cells[row].map(Nanometre::to_millimetres),

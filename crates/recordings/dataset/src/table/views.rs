@@ -3,7 +3,7 @@
 use super::{Cells, FrameEntry, NamedColumn, RowFrame, Table};
 use crate::digest::{Digest, PartsDigest};
 
-/// Separator between a column name on disk and its view. Attributes and channels do not contain it.
+/// Separator between a column name on disk and its view. No name of an attribute or channel contains this character.
 const SEPARATOR: char = ':';
 
 /// Pictures of one view, one per row.

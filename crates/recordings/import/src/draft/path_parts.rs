@@ -88,7 +88,7 @@ impl PathParts {
         plain.replace(":number}", "}").replace('{', "{path.")
     }
 
-    /// Letters directly after the part called `name`. They are usually its unit.
+    /// Letters directly after the part called `name`, usually its unit.
     pub(super) fn letters_behind(&self, name: &str) -> Option<&str> {
         let (_, behind) = self.pattern.split_once(&format!("{{{name}:"))?;
         let (_, behind) = behind.split_once('}')?;

@@ -12,7 +12,7 @@ use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{Cells, staging::StagedFolder};
 
 const FILE: &str = "recording.h5";
-/// Maximum length of a text, bytes. Each text of an array takes the space of the longest.
+/// Maximum length of a text, bytes. Each text of an array takes the space of the longest text.
 const TEXT_BYTES: usize = 4096;
 
 pub(super) fn write(

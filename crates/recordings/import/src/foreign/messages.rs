@@ -193,7 +193,7 @@ impl ColumnSource for MessageRows {
         Ok(texts.collect())
     }
 
-    /// Uses the field types from the schema in the file.
+    /// True if every cell is an integer, a null, or a list of these. A schema in the file determines the types of cells.
     fn holds_integers(&self, name: &str) -> bool {
         let columns = self.table.columns(&[name]);
         columns.is_ok_and(|columns| columns.iter().flatten().all(is_integer))

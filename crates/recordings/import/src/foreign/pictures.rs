@@ -97,7 +97,7 @@ pub(super) fn guarded_visit<E: fmt::Display>(
 
 /// Picture as found in a file.
 pub(crate) enum Picture {
-    /// Bytes of a PNG, JPEG or TIFF file. They are stored unchanged.
+    /// Bytes of a PNG, JPEG or TIFF file, which are stored unchanged.
     Encoded(Vec<u8>),
     Pixels(Frame),
 }

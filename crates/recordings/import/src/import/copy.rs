@@ -56,7 +56,7 @@ pub struct ImportReport {
 impl ImportPlan {
     /// Writes the dataset to `target` on `jobs` threads. The bytes are the same for any number of threads.
     ///
-    /// Encoded frames keep their bytes; pixels from an array or a clip become PNG. A JPEG is decoded to its end. This detects missing or changed
+    /// Encoded frames keep their bytes; pixels from an array or a clip become PNG. A JPEG is decoded to its end. This check detects missing or changed
     /// data, unless every code is still valid and the last code ends at the same place. A bit changed before the import may therefore change the
     /// picture without an error. The digests detect all damage after the import.
     ///

@@ -1,4 +1,4 @@
-//! Depth maps of an import. They are planned with the kept rows and written when the import runs.
+//! Depth maps of an import, planned with the kept rows and written when the import runs.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! Signals of an import. They are planned with the kept rows and written when the import runs.
+//! Signals of an import, planned with the kept rows and written when the import runs.
 
 mod array;
 

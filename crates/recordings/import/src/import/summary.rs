@@ -38,7 +38,7 @@ pub struct ImportSummary {
     pub rows_read: u64,
     /// Number of rows that become samples of the dataset.
     pub rows_kept: u64,
-    /// Number of contact points that these rows name; 0 if the map names none.
+    /// Number of contact points that the kept rows name; 0 if the map names no contact point.
     pub points: u64,
     /// Number of rows dropped by each rule. Several rules may drop the same row.
     pub dropped: BTreeMap<String, u64>,
@@ -58,13 +58,13 @@ pub struct ImportSummary {
     pub frames: Vec<FrameSummary>,
     /// Number of images beside the table that no row names.
     pub unnamed_images: u64,
-    /// The first 20 of these images, sorted.
+    /// The first 20 images that no row names, sorted.
     pub first_unnamed_images: Vec<PathBuf>,
     /// True if there may be more images without a row, because the search ended at the maximum number of files.
     pub has_more_files: bool,
     /// Number of frames in arrays and clips that no row uses, by file.
     pub unused_frames: BTreeMap<String, u64>,
-    /// Number of unwritten chunks of arrays, by file and array. They are read as the fill value.
+    /// Number of unwritten chunks, which are read as the fill value, by file and array.
     pub absent_chunks: BTreeMap<String, u64>,
     /// Columns of the tables that the map does not mention, sorted.
     pub unmentioned_columns: BTreeSet<String>,

@@ -27,7 +27,7 @@ pub enum ImportWarning {
         column: String,
         /// Example cell.
         example: String,
-        /// Number of such cells.
+        /// Number of cells with three digits after a point.
         cells: u64,
     },
     /// Text times have no time zone, and the map states no time zone for a clock that counts from 1970.
@@ -84,7 +84,7 @@ pub enum ImportWarning {
         farthest_ms: String,
         /// Usual step between rows of the joined table, ms.
         usual_ms: String,
-        /// Tolerance that would leave these rows out, ms.
+        /// Tolerance that would leave out the rows with labels across a pause, ms.
         tolerance_ms: String,
     },
     /// A joined table has rows at the times of the main table if the lag of the map is ignored.
@@ -93,7 +93,7 @@ pub enum ImportWarning {
         join: String,
         /// Number of rows of the main table with a lag above 100 ms.
         rows: u64,
-        /// Number of these rows for which the joined table has a row at the same time.
+        /// Number of rows with a lag above 100 ms for which the joined table has a row at the same time.
         equal: u64,
     },
     /// Most rows of both tables have no match by time.
@@ -102,7 +102,7 @@ pub enum ImportWarning {
         join: String,
         /// Number of rows of the main table.
         rows: u64,
-        /// Number of these rows with a match.
+        /// Number of rows of the main table with a match.
         matched: u64,
         /// Spans of the times of both tables, in words.
         spans: String,
@@ -119,7 +119,7 @@ pub enum ImportWarning {
         /// Name of a picture.
         name: String,
     },
-    /// A taxel often has a number far from all its others, and the map lists no placeholders.
+    /// A taxel often has a number far from all its other numbers, and the map lists no placeholders.
     TaxelCode {
         /// First column with the number, as the map names it.
         column: String,

@@ -204,8 +204,8 @@ fn is_counting(column: &SeenColumn) -> bool {
     pairs.all(|pair| pair[1].checked_sub(pair[0]) == Some(1))
 }
 
-/// True if the cells of `column` are different whole numbers below a span of `rows`, in an unsorted order. The picture numbers may follow these numbers with
-/// another offset.
+/// True if the cells of `column` are different whole numbers, unsorted and with a range below `rows`. Pictures may then have these numbers plus
+/// an offset.
 fn is_shuffled(column: &SeenColumn, rows: usize) -> bool {
     let numbers: Option<Vec<u64>> = filled(column).map(whole_number).collect();
     let numbers = numbers.filter(|numbers| may_name(column) && !numbers.is_sorted());

@@ -11,7 +11,7 @@ use crate::source_folder::SourceFolder;
 
 /// Column that names pictures of a folder.
 struct Match<'t> {
-    /// Folder of the pictures relative to the folder of the table; `None` if it is outside that folder.
+    /// Folder of the pictures relative to the folder of the table; `None` if the pictures are outside the folder of the table.
     within: Option<&'t str>,
     /// Folder of the pictures relative to the source folder.
     base: &'t str,

@@ -57,8 +57,8 @@ fn place_column<'t>(
     })
 }
 
-/// Line for contact points that their coordinates name, if most of these places repeat exactly. A sensor that rests and then moves has many places of
-/// one row.
+/// Line for contact points that their coordinates name, if most of these places repeat exactly. A sensor that rests and then moves has many places with
+/// only one row.
 fn repeated_places(main: &SeenTable<'_>, channels: &str) -> Option<String> {
     let [x, y] = ["Px", "Py"].map(|channel| place_column(main, channels, channel));
     let (x, y) = (x?, y?);

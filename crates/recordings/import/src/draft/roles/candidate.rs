@@ -349,7 +349,7 @@ impl Named {
         suffix.is_some_and(|suffix| suffix.of_quantity(quantity).is_some())
     }
 
-    /// Candidate for the number at `index` of the cell; `Err` with the reason if the name excludes the column.
+    /// Candidate for the number at `index` of the cell; `None` if the name indicates no channel, `Err` if the name excludes the column.
     pub(crate) fn candidate(&self, index: String) -> Option<Result<Candidate, Exclusion>> {
         let (channel, reason) = self.channel()?;
         if let Some(exclusion) = self.exclusion() {

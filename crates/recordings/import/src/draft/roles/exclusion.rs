@@ -23,7 +23,7 @@ impl fmt::Display for Exclusion {
     }
 }
 
-/// Words for quantities without a channel. They are searched anywhere in a name.
+/// Words for quantities without a channel, searched anywhere in a name.
 const QUANTITIES: &[(&[&str], &str)] = &[
     (
         &[

@@ -89,7 +89,7 @@ impl PathPattern {
         })
     }
 
-    /// Letters directly after the part called `name`. They are usually its unit.
+    /// Letters directly after the part called `name`, usually its unit.
     pub(crate) fn letters_behind(&self, name: &str) -> Option<&str> {
         let is_it =
             |piece: &Piece| matches!(piece, Piece::Named { name: known, .. } if known == name);

@@ -16,7 +16,7 @@ pub(super) struct ViewReading<'a> {
     pub(super) map: &'a FrameMap,
     /// Base folder of the pictures of the table being read.
     pub(super) base: PathBuf,
-    /// Conversion of the depth map in the clips of that table; `None` for pictures.
+    /// Conversion of the depth map in the clips of the table being read; `None` for pictures.
     pub(super) depth: Option<DepthPixels>,
     /// Opened files with pictures.
     pub(super) opened: BTreeMap<PathBuf, Arc<dyn Pictures>>,
@@ -67,7 +67,7 @@ impl<'a> ViewReading<'a> {
         Ok(FrameSource::Within(Arc::clone(first), index))
     }
 
-    /// Base folder of named files: the folder of the table, unless the map states another.
+    /// Base folder of named files: the folder of the table, unless the map states another folder.
     pub(super) fn beside(&self, named_by: Option<&Path>) -> PathBuf {
         match self.map.folder {
             None => named_by.unwrap_or(&self.base).to_owned(),

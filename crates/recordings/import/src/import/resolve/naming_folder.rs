@@ -11,7 +11,7 @@ pub(in crate::import) struct NamedBy {
     views: Vec<ViewNamedBy>,
 }
 
-/// Folder of the joined table that names the picture and the reference of each row; `None` if the main table does.
+/// For each row, folder of the joined table that names the picture, and of the table that names the reference; `None` if the main table names it.
 #[derive(Debug)]
 struct ViewNamedBy {
     frames: Option<Vec<PathBuf>>,
@@ -38,7 +38,7 @@ impl NamedBy {
         }
     }
 
-    /// Folder of the joined table that names the picture of `row` in the view at position `view`.
+    /// Folder of the joined table that names the picture of `row` in the view at position `view`; `None` if the main table names the picture.
     pub(in crate::import) fn frame(&self, view: usize, row: usize) -> Option<&Path> {
         Some(self.views.get(view)?.frames.as_ref()?.get(row)?)
     }
