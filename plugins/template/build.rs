@@ -1,7 +1,7 @@
 //! Lists the sources of the crates for Rust plugins, and the headers for C plugins, so they can be embedded.
 //!
-//! `vendor/` contains links to them. `cargo package` replaces the links by their targets, so the published crate is complete. A checkout without
-//! symbolic links reads them from the workspace.
+//! `vendor/` contains links to these files. `cargo package` replaces the links by their targets, so the published crate is complete. A checkout
+//! without symbolic links reads the files from the workspace.
 
 use std::env;
 use std::fmt::Write as _;

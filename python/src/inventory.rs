@@ -51,7 +51,7 @@ pub(crate) fn host(py: Python<'_>) -> PyResult<Arc<PluginHost>> {
     })
 }
 
-/// Writes warnings and errors of plugins to standard error. They do not go to Python, because a waiting caller may hold its lock.
+/// Writes warnings and errors of plugins to standard error. Python receives no lines, because a waiting caller may hold the interpreter lock.
 fn log() -> PluginLog {
     Arc::new(|id, level, target, message| {
         if level <= Level::Warn {

@@ -14,7 +14,7 @@ use taceva_results::{EvaluationReport, Score};
 use crate::arrays::{Points, Table};
 use crate::errors::value_error;
 
-/// Number of rows in a block. Their columns stay in the L1 and L2 caches. Each block looks up the names of points, so smaller blocks cost more.
+/// Number of rows in a block, whose columns stay in the L1 and L2 caches. Each block looks up the names of points, so smaller blocks cost more.
 const BLOCK_ROWS: usize = 4096;
 
 /// Unit of one of the six channels; `None` for any other channel.

@@ -35,7 +35,7 @@ pub(crate) use self::waiting::{Deadline, Interrupted};
 static SERVES: AtomicBool = AtomicBool::new(false);
 
 /// Runs the process of a plugin: confines it, calls `import_module(folder, name, preload)` for the plugin, serves it until the host ends, and returns
-/// the exit code. Call it first, before any import that starts threads.
+/// the exit code. Call this function first, before any import that starts threads.
 #[pyfunction]
 pub(crate) fn serve_plugin(py: Python<'_>, import_module: Py<PyAny>) -> i32 {
     SERVES.store(true, Ordering::Relaxed);

@@ -46,7 +46,7 @@ struct AskedTask {
     debounce: Option<u32>,
 }
 
-/// Decimals between the classes of a pose.
+/// Thresholds between the classes of a pose, as decimal texts.
 #[derive(Deserialize)]
 struct AskedThresholds {
     t: Vec<String>,

@@ -12,7 +12,7 @@ use crate::workspace::root;
 /// The built command line program.
 ///
 /// # Panics
-/// If it does not build, which ends the test.
+/// If the build fails, which ends the test.
 pub fn taceva() -> PathBuf {
     built(&["--bin", "taceva"], "taceva")
 }
@@ -20,7 +20,7 @@ pub fn taceva() -> PathBuf {
 /// The built example `name` of any crate.
 ///
 /// # Panics
-/// If it does not build, which ends the test.
+/// If the build fails, which ends the test.
 pub fn example(name: &str) -> PathBuf {
     built(&["--example", name], name)
 }
@@ -28,7 +28,7 @@ pub fn example(name: &str) -> PathBuf {
 /// The built shared library of the crate `package`.
 ///
 /// # Panics
-/// If it does not build, which ends the test.
+/// If the build fails, which ends the test.
 pub fn library(package: &str) -> PathBuf {
     built(&["--lib"], &package.replace('-', "_"))
 }

@@ -30,7 +30,7 @@ impl Form {
 /// File of a gray picture of 48×36 pixels: a slope with noise, so that all pictures differ and no pixel is predictable.
 ///
 /// # Panics
-/// If the encoder fails on it, which ends the test.
+/// If the encoder fails, which ends the test.
 pub fn picture(form: Form, number: u32) -> Vec<u8> {
     const WIDTH: u32 = 48;
     const HEIGHT: u32 = 36;
@@ -64,7 +64,7 @@ impl Lab {
     /// A folder in which row `n` of the table names picture `n` of `pictures`, with colours stored in `order`.
     ///
     /// # Panics
-    /// If it cannot be written, which ends the test.
+    /// If the folder cannot be written, which ends the test.
     pub fn new(form: Form, order: &str, pictures: &[Vec<u8>]) -> Lab {
         Lab::numbered(form, order, pictures, 0)
     }
@@ -72,7 +72,7 @@ impl Lab {
     /// A folder with `count` drawn gray pictures, numbered from `first` on.
     ///
     /// # Panics
-    /// If it cannot be written, which ends the test.
+    /// If the folder cannot be written, which ends the test.
     pub fn drawn_from(form: Form, first: usize, count: usize) -> Lab {
         let number = |number| u32::try_from(number).expect("a small number");
         let pictures: Vec<Vec<u8>> = (first..first + count)
@@ -124,7 +124,7 @@ impl Lab {
 /// Creates a folder in memory if possible, otherwise among temporary files, because tests create thousands of files.
 ///
 /// # Panics
-/// If it cannot be created, which ends the test.
+/// If the folder cannot be created, which ends the test.
 pub fn scratch() -> tempfile::TempDir {
     let in_memory = tempfile::tempdir_in("/dev/shm");
     in_memory

@@ -1,7 +1,7 @@
 //! Structure figures of the workspace: lines, module cycles, tuple parameters, copies, doc comments, file names, and the number of files
 //! per feature and of crates per package.
 //!
-//! `cargo run -p taceva-tests --bin structure` prints them; tests limit the ones that must not grow.
+//! `cargo run -p taceva-tests --bin structure` prints these figures; tests limit figures that must not grow.
 
 mod copies;
 mod crates;

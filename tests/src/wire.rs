@@ -35,7 +35,7 @@ pub const RUN: &str = "wire";
 /// Scene `examples/scenes/wire.toml` with `presses` presses to one depth each, and a model that fits quickly.
 ///
 /// # Panics
-/// If it cannot be read, which ends the test.
+/// If the scene cannot be read, which ends the test.
 pub fn scene_of(presses: usize) -> String {
     let text = read("examples/scenes/wire.toml");
     let points = format!("points = {presses}");
@@ -169,7 +169,7 @@ impl UnderWay {
     /// Waits for the end. Returns true for success, and the output.
     ///
     /// # Panics
-    /// If it cannot be read, which ends the test.
+    /// If the output cannot be read, which ends the test.
     pub fn end(&mut self) -> (bool, String) {
         let mut said = String::new();
         if let Some(mut errors) = self.0.stderr.take() {

@@ -15,7 +15,7 @@ pub fn root() -> PathBuf {
 /// A text file of the workspace.
 ///
 /// # Panics
-/// If it cannot be read, which ends the test.
+/// If the file cannot be read, which ends the test.
 pub fn read(relative: &str) -> String {
     let path = root().join(relative);
     std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))

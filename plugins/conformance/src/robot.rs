@@ -36,7 +36,7 @@ pub(crate) const PROMISES: &[Promise<dyn Robot>] = &[
 
 type Subject<'a> = Tried<'a, dyn Robot>;
 
-/// Poses agree and are in the workspace, and stamps never decrease. After its deadline, a call returns a pose at once.
+/// Poses agree and are in the workspace, and stamps never decrease. A call whose deadline has passed returns at once.
 fn poses(tried: &Subject<'_>) -> Result<(), Unmet> {
     let mut robot = tried.open()?;
     let (first, mut last) = robot.pose(tried.trial.deadline)?;
@@ -346,7 +346,7 @@ fn facts<'a>(tried: &'a Subject<'_>) -> Result<&'a RobotFacts, Unmet> {
     facts.ok_or_else(|| broken("does not declare itself a robot"))
 }
 
-/// Fails unless the two poses agree within the robot's repeatability: six standard deviations of a difference, or 0.1 mm.
+/// Fails unless the two poses agree within six standard deviations of a difference, or 0.1 mm without a declared repeatability.
 fn near(tried: &Subject<'_>, found: &Pose, expected: &Pose) -> Result<(), Unmet> {
     const UNKNOWN_MM: f64 = 0.1;
     const ROUNDING_MM: f64 = 1e-6;

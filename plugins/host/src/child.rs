@@ -1,7 +1,7 @@
 //! Plugins in a separate process.
 //!
 //! [`Child::start`] runs this program again as a *host child*. That process confines itself ([`Confinement`]), then loads a plugin and answers calls.
-//! The host wraps its devices in the device traits of `taceva_core`. A crash or misbehaviour of the plugin reaches the host as a typed error
+//! The host wraps the child's devices in the device traits of `taceva_core`. A crash or misbehaviour of the plugin reaches the host as a typed error
 //! ([`ChildError`]) of that child's devices and affects nothing else.
 //!
 //! | data | transport |

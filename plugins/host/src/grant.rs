@@ -56,7 +56,7 @@ impl Withheld {
         &self.needs
     }
 
-    /// Appends the remedy to `why` if `why` is a permission error; `None` otherwise.
+    /// Appends the remedy to `why` if `why` is a permission error; `None` otherwise, or without a remedy.
     pub fn explain(&self, why: &str) -> Option<String> {
         let is_refusal = [
             "permission denied",

@@ -64,7 +64,7 @@ type Started = (Arc<dyn Session>, Sha256Digest);
 /// Results of isolation trials, by the needs of the child. The key for Python also has interpreter and profile.
 type Tried = BTreeMap<(BTreeSet<Need>, Option<(PathBuf, Profile)>), Keeping>;
 
-/// Plugins of a program, with their settings. Each runs in the process that the user's settings choose.
+/// Plugins of a program, with their settings. Each plugin runs in the process that the user's settings choose.
 pub struct PluginHost {
     plugins: Plugins,
     config: PluginConfig,

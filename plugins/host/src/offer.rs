@@ -2,7 +2,7 @@
 
 mod edit;
 
-/// Contents of the manifest as the library states them. These are checked only when the resulting manifest is parsed.
+/// Contents of the manifest as the library states them. The contents are checked only when the resulting manifest is parsed.
 ///
 /// ```
 /// use taceva_host::{LibraryFile, Offer};

@@ -1,4 +1,4 @@
-//! Search for plugins by their manifests. It opens no library. Every rejected plugin is kept with its reason.
+//! Search for plugins by their manifests. The search opens no library. Every rejected plugin is kept with its reason.
 
 mod environment;
 mod place;

@@ -50,7 +50,7 @@ pub(crate) fn close(handle: *const c_void) {
 pub(crate) struct Handle<T> {
     is_dead: AtomicBool,
     device: Mutex<T>,
-    /// Interrupts a pending call, as `halt` stops a motion. Neither waits for the device. `None` if the device has none.
+    /// Interrupts a pending call without waiting for the device; `None` if the device has no interrupt handle.
     pub(crate) interrupt: Option<Arc<dyn Interrupt>>,
     pub(crate) halt: Option<Arc<dyn Halt>>,
 }

@@ -74,7 +74,7 @@ def evaluate(
     batch
         Number of frames in one call of a module or a callable.
     jobs
-        Number of threads; all cores if 0. Results do not depend on it.
+        Number of threads; all cores if 0. Results do not depend on this number.
 
     Returns
     -------

@@ -55,9 +55,9 @@ def score_function(
     truth, prediction, points, channels
         As in `score`. NaN is rejected.
     name
-        Name of the metric; by default that of the function.
+        Name of the metric; by default the name of the function.
     unit
-        Unit of the number, optionally by channel; by default that of the channel, or ``1``.
+        Unit of the number, optionally by channel; by default the unit of the channel, or ``1``.
     together
         True to call the function with ``[rows, channels]`` once for all channels. The result has one score, of the channels joined by ``+``.
     independent
@@ -68,7 +68,7 @@ def score_function(
     Raises
     ------
     ValueError, TypeError
-        As `TactileMetrics.update`, and for a function that does not return a number. Its own exceptions are raised unchanged.
+        As `TactileMetrics.update`, and for a function that does not return a number. Exceptions of the function are raised unchanged.
 
     >>> import numpy as np
     >>> import taceva

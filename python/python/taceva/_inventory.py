@@ -27,7 +27,7 @@ class FoundPlugin:
 
 
 def models() -> dict[str, str]:
-    """Return the names of models and presets for `evaluate`, each with a description; those of plugins come last.
+    """Return the names of models and presets for `evaluate`, each with a description; names from plugins come last.
 
     >>> import taceva
     >>> "ridge" in taceva.models() and "fast" in taceva.models()

@@ -118,7 +118,7 @@ class TactileMetrics:
         truth, prediction
             ``[rows, channels]``, or ``[rows]`` for one channel: numpy arrays or torch tensors, float32 or float64, in the unit of their channel.
             Whole numbers are converted. Named columns (pandas, polars, Arrow, a dict of arrays) are matched by name. Rows are matched by a
-            common column ``sample``, ``id``, ``sample_id`` or ``index``, else by the pandas index. Two default indices pair them by order.
+            common column ``sample``, ``id``, ``sample_id`` or ``index``, else by the pandas index. Two default indices pair rows by order.
         points
             Contact point of each row, a whole number or a text, or the name of the column that holds them. Intervals treat the samples of one
             point as dependent. By default a column ``point_id`` is used.
@@ -198,8 +198,8 @@ class TactileMetrics:
     def sync(self, gather: Callable[[bytes], Sequence[bytes]] | None = None) -> TactileMetrics:
         """Return the samples of all processes in a new object, equal in each process. This object keeps only its own samples.
 
-        ``gather`` passes bytes to every process and returns those of all, like ``allgather`` of mpi4py. The default is ``torch.distributed``,
-        if initialised. Every process must call this method, with the same channels and metrics.
+        ``gather`` passes bytes to every process and returns the bytes of all processes, like ``allgather`` of mpi4py. The default is
+        ``torch.distributed``, if initialised. Every process must call this method, with the same channels and metrics.
         """
         whole = self._emptied()
         for states in (gather or gathered)(self.states()):
@@ -353,7 +353,7 @@ def score_tables(
     allow_invalid
         True to count and skip rows with NaN or an infinite number instead of rejecting them.
     jobs
-        Number of threads; all cores if 0. Results do not depend on it.
+        Number of threads; all cores if 0. Results do not depend on this number.
     """
     scored = _taceva.score_tables(
         os.fspath(truth),

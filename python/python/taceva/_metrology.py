@@ -283,7 +283,7 @@ def budget(
     date
         Day of the recording, on which the certificate must be valid.
     at
-        Value of the measurand with its unit, ``"0.5 N"``; by default that of the sources.
+        Value of the measurand with its unit, ``"0.5 N"``; by default the value of the sources.
     draws, seed
         Greatest number of Monte Carlo draws, 0 for none, and their seed.
     most

@@ -33,7 +33,7 @@ class Monitor:
     """Find changes of a sensor while it works: lost light, a moved camera, blur, wear, repeated pictures.
 
     The mean of the first 50 untouched pictures is the baseline, and the next 200 set the limits. From then on each kind of change raises one
-    alarm. Begin with a new monitor after its remedy.
+    alarm. After the remedy of a change, begin with a new monitor.
 
     Parameters
     ----------

@@ -130,9 +130,9 @@ class OnnxModel:
 def onnx(path: str | os.PathLike[str], *, providers: list[str] | None = None, order: str | None = None) -> OnnxModel:
     """Return the model in an ONNX file for `evaluate`, run by the installed onnxruntime: ``pip install 'taceva[onnx]'``.
 
-    It has one input of four axes: ``[rows, samples, height, width]``, as exported by torch, or ``[rows, height, width, samples]``. A
+    The model has one input of four axes: ``[rows, samples, height, width]``, as exported by torch, or ``[rows, height, width, samples]``. A
     floating-point input receives pixels from 0 to 1, a whole-number input the original pixels. A fixed number of rows is supported. Its only
-    output is ``[rows, channels]`` in their units.
+    output is ``[rows, channels]`` in the units of the channels.
 
     Parameters
     ----------

@@ -147,8 +147,8 @@ def import_recording(
 ) -> Dataset:
     """Import a folder of another program by a map, like ``taceva import SOURCE --map MAP --out OUT``, and open the recording.
 
-    ``taceva import SOURCE --draft`` writes a first map, a TOML file. ``replace`` replaces the recording at ``out`` once the new one is
-    complete. ``ffmpeg`` is a program that decodes clips with unsupported codecs.
+    ``taceva import SOURCE --draft`` writes a first map, a TOML file. ``replace`` replaces the recording at ``out`` once the new
+    recording is complete. ``ffmpeg`` is a program that decodes clips with unsupported codecs.
 
     Raises
     ------

@@ -16,8 +16,8 @@ source = "real"
 axes = ["Fz"]
 rate_hz = 10
 
-``python -m taceva.plugin manifest MODULE --write`` writes its manifest beside ``__init__.py``. A plugin runs in its own process, with access
-only to those needs of the manifest that the user allows.
+``python -m taceva.plugin manifest MODULE --write`` writes the manifest of the plugin beside ``__init__.py``. A plugin runs in its own process,
+with access only to those needs of the manifest that the user allows.
 """
 
 from __future__ import annotations
@@ -95,9 +95,9 @@ class Pose(NamedTuple):
 class Reading(NamedTuple):
     """Reading of a force transducer.
 
-    ``force`` is Fz, or ``[Fx, Fy, Fz]``, or ``[Fx, Fy, Fz, Tx, Ty, Tz]``, in N and N·mm. ``time`` is its time on the clock of `now`.
-    ``number`` is its sequence number, if the device numbers its readings. ``lost`` is the number of readings that were lost between the
-    device and the plugin since it was opened, if the device shows them.
+    ``force`` is Fz, or ``[Fx, Fy, Fz]``, or ``[Fx, Fy, Fz, Tx, Ty, Tz]``, in N and N·mm. ``time`` is the time of the reading on the clock of `now`.
+    ``number`` is the sequence number of the reading, if the device numbers its readings. ``lost`` is the number of readings that were lost between
+    the device and the plugin since it was opened, if the device shows them.
     """
 
     force: float | Sequence[float]

@@ -60,7 +60,7 @@ class _Streaming(Device):
 class Sensor(_Streaming):
     """Camera of a gel.
 
-    Its class declares at least ``source`` and ``frame=(width, height, format)``, where ``format`` is ``"gray8"``, ``"rgb8"``, ``"gray16"`` or
+    A subclass declares at least ``source`` and ``frame=(width, height, format)``, where ``format`` is ``"gray8"``, ``"rgb8"``, ``"gray16"`` or
     ``"rgb16"``: ``class Camera(Sensor, source="real", frame=(640, 480, "rgb8"), rate_hz=30)``.
     """
 
@@ -78,7 +78,7 @@ class Sensor(_Streaming):
 class Force(_Streaming):
     """Force transducer.
 
-    Its class declares at least ``source`` and ``axes``: ``class Scale(Force, source="real", axes=["Fz"], rate_hz=100)``. With ``tare=True`` it
+    A subclass declares at least ``source`` and ``axes``: ``class Scale(Force, source="real", axes=["Fz"], rate_hz=100)``. With ``tare=True`` it
     also has a method ``zero(deadline)`` that sets the present load to zero.
     """
 
@@ -92,11 +92,11 @@ class Force(_Streaming):
 class Robot(Device):
     """Robot that moves the tip.
 
-    Its class declares at least ``source``. Also declare ``workspace={"least_mm": [x, y, z], "greatest_mm": [x, y, z]}`` and
+    A subclass declares at least ``source``. Also declare ``workspace={"least_mm": [x, y, z], "greatest_mm": [x, y, z]}`` and
     ``limits={"speed_max_mm_s": 50.0}``: they are checked before each call. Poses are in mm and degrees in the frame of the sensor, z into the gel.
 
-    With ``guarded_motion=True`` it has a method ``move_guarded(target, speed, force, deadline)`` that stops by itself at ``force`` (N). It
-    returns ``(pose, time)`` of that stop, or only the time if it reached the target. A robot that stops within 0.2 s after its program stops
+    With ``guarded_motion=True`` it has a method ``move_guarded(target, speed, force, deadline)`` that stops by itself at ``force`` (N). The method
+    returns ``(pose, time)`` of that stop, or only the time if the tip reached the target. A robot that stops within 0.2 s after its program stops
     sending has a method ``move_expiring(target, speed, deadline)`` for motions towards a surface.
     """
 
@@ -125,7 +125,7 @@ class Robot(Device):
 
 
 class Lighting(Device):
-    """Lighting around the sensor. Its class declares at least ``source`` and ``scenes``."""
+    """Lighting around the sensor. A subclass declares at least ``source`` and ``scenes``."""
 
     kind = "lighting"
 
@@ -135,12 +135,12 @@ class Lighting(Device):
 
 
 class Changer(Device):
-    """Device that brings specimens or units of a sensor into place. Its class declares at least ``source`` and ``holds``, the names of the items."""
+    """Device that brings specimens or units of a sensor into place. A subclass declares at least ``source`` and ``holds``, the names of the items."""
 
     kind = "changer"
 
     def bring(self, name: str, deadline: Deadline) -> str | None:
-        """Bring ``name`` into place. Return the name that the device senses, or ``None`` if it cannot sense it.
+        """Bring ``name`` into place. Return the name that the device senses, or ``None`` if the device cannot sense the name.
 
         The robot is halted meanwhile. Return once all motion has ended.
         """
@@ -152,7 +152,7 @@ class Samples:
     """Samples that an estimator is fitted on.
 
     ``features`` is ``[samples, height, width, depth]``, float32. ``targets`` is ``[samples, channels]``, float64, in mm and N. ``channels``
-    has the names of its columns. ``groups`` has the number of the contact point of each sample, if known.
+    has the names of the columns of ``targets``. ``groups`` has the number of the contact point of each sample, if known.
     """
 
     features: npt.NDArray[np.float32]

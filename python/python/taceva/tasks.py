@@ -42,7 +42,7 @@ class TaskScores(Metrology):
             file.write(self.states)
 
     def __getitem__(self, metric: str | tuple[str, str]) -> dict[str, Any]:
-        """Return the score of a metric of the only task, or of ``task, metric``. A variant follows a point: ``"f1_macro.class slip"``."""
+        """Return the score of a metric of the only task, or of ``task, metric``. A variant follows a dot: ``"f1_macro.class slip"``."""
         tasks = self.to_dict()["tasks"]
         task, asked = (None, metric) if isinstance(metric, str) else metric
         if task is None and len(tasks) > 1:
@@ -97,13 +97,13 @@ def score(
         True classes ``[rows]``: names, or positions in ``names``. ``None``, NaN and ``""`` are rows without a label, which are left out. A task
         of poses has ``[rows, 7]``: x, y, z in mm and a quaternion x, y, z, w.
     prediction
-        Predicted classes or poses, of the same form. It may be absent beside probabilities: the class with the greatest score counts.
+        Predicted classes or poses, of the same form. The prediction may be absent beside probabilities: the class with the greatest score counts.
     clusters
         Stroke, clip or object of each row. Rows of a cluster resemble each other, so intervals are over clusters.
     probabilities
         Scores ``[rows, classes]`` in the order of ``names``, or ``[rows]`` of the positive one of two classes, with a ``threshold``.
     names
-        Classes in their order; by default those that occur.
+        Classes in their order; by default the classes that occur.
     positive
         Class that F1, precision and recall describe.
     kind
@@ -116,7 +116,7 @@ def score(
     debounce
         The positive class is predicted from this number of positive frames in a row on.
     thresholds
-        Decimals between classes of a pose: ``{"t": ["0.1", "0.5"], "r": ["0.2", "1"]}``, in mm and degrees.
+        Thresholds between classes of a pose, as decimals: ``{"t": ["0.1", "0.5"], "r": ["0.2", "1"]}``, in mm and degrees.
     name
         Name of the task.
     source

@@ -1,4 +1,4 @@
-//! A Python sensor. It writes frames into a numpy array, from which they are copied.
+//! A Python sensor. The object writes frames into a numpy array, from which they are copied.
 
 use std::sync::Arc;
 use std::time::Duration;

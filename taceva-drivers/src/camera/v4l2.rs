@@ -28,7 +28,7 @@ taceva_core::inventory::submit! {
     }
 }
 
-/// True for the first device file of a camera. Further files give no images. An old system does not number them.
+/// True for the first device file of a camera. Further files give no images. An old system does not number the files.
 fn is_first_file(machine: &Machine, name: &str) -> bool {
     let index = machine.text(&format!("sys/class/video4linux/{name}/index"));
     index.is_none_or(|index| index == "0")

@@ -201,7 +201,7 @@ impl<S: Clone + Send + 'static> SerialLink<S> {
         sent.map_err(|error| CommandError::Broken(error.to_string()))
     }
 
-    /// Discards received answers including faults. Called if the state of the machine shows that these are outdated.
+    /// Discards received answers including faults. Called if the state of the machine shows that the answers are outdated.
     #[cfg(feature = "grbl")]
     pub(super) fn forget(&mut self) {
         while self.answers.try_recv().is_ok() {}

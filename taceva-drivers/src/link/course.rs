@@ -8,7 +8,7 @@ use taceva_core::{Pose, Speed};
 pub(crate) const RENEWED: Duration = Duration::from_millis(50);
 /// Remaining time below which a line command replaces velocities. Only a line command ends exactly at the target.
 pub(crate) const LINE: Duration = Duration::from_millis(100);
-/// Shortest path driven by velocities. A shorter path is one line command, because a change of the motion type takes time.
+/// Shortest duration of a path that is driven by velocities. A shorter path is one line command, because a change of the motion type takes time.
 const WORTH: Duration = Duration::from_millis(300);
 /// Tolerance of the tool's rotation, degrees.
 const TURNED_DEG: f64 = 0.01;

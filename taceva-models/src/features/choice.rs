@@ -36,8 +36,8 @@ impl OpenFeatures {
         (open.size || open.difference).then_some((open, rest))
     }
 
-    /// Candidate features around `spec`, the simplest first. Grids have a quarter, half, the same and twice the resolution, as far as frames of
-    /// `info` allow. Signals have one grid. Each grid is tried without a reference and, if there is one, with the difference from the reference.
+    /// Candidate features around `spec`, the simplest first. Grids have 1/4, 1/2, 1 and 2 times the resolution of `spec`, as far as frames
+    /// of `info` allow. Signals have one grid. Grids are tried without a reference and, if given, with the difference from the reference.
     ///
     /// ```
     /// use taceva_core::{FrameInfo, PixelFormat};
@@ -121,7 +121,7 @@ pub struct FeatureTrial {
     pub features: FeatureSpec,
     /// Root mean square error relative to the standard deviation of labels, over the varying channels.
     pub error: f64,
-    /// Unexplained share of the label variance, minus the share of the features with the least error. 0 for the features with the least error.
+    /// Unexplained share of the label variance, minus the same share for the features with the least error. 0 for the features with the least error.
     pub excess: f64,
     /// Standard error of the excess, computed by group.
     pub standard_error: f64,

@@ -1,4 +1,4 @@
-//! Preprocessing of pictures for networks. It is part of the model, and stored in the model's file.
+//! Preprocessing of pictures for networks. The preprocessing is part of the model, and stored in the model's file.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};

@@ -165,8 +165,8 @@ fn sections<'a>(input: &'a SplitInput<'a>) -> impl Iterator<Item = (Range<usize>
     })
 }
 
-/// Assigns whole clusters to parts at random. All clusters have equal weight, regardless of their number of rows. With one row per cluster, this is the random
-/// split. Clusters are numbered by their first row, so the result does not depend on names.
+/// Assigns whole clusters to parts at random. All clusters have equal weight, regardless of their number of rows. With one row per cluster, the
+/// result is the random split. Clusters are numbered by their first row, so the result does not depend on names.
 ///
 /// A cluster remains in the part of its first section. Random draws restart with each recording. Each recording is therefore divided as if it were alone.
 fn by_cluster<N: Ord>(

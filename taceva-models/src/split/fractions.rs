@@ -37,7 +37,7 @@ impl Fractions {
         }
     }
 
-    /// Number of validation groups among `total` training and validation groups. It is 0 without a validation share, and always below `total`.
+    /// Number of validation groups among `total` training and validation groups. 0 without a validation share or groups, else below `total`.
     pub(super) fn validation_of_rest(&self, total: usize) -> usize {
         let [train, validation, _] = self.shares;
         let rest = Fractions {

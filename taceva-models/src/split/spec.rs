@@ -35,9 +35,9 @@ pub enum SplitKind {
     ByRecording(BTreeMap<String, Part>),
     /// Random, by block of time, with a gap between blocks of different parts.
     ByBlock,
-    /// Cross-validation over several recordings: a model fitted to all other recordings tests each recording.
+    /// Cross-validation over several recordings: each recording is predicted by a model fitted to all other recordings.
     LeaveOneRecordingOut,
-    /// Cross-validation: a model fitted to other groups tests each group.
+    /// Cross-validation: each group is predicted by a model fitted to other groups.
     Folds(FoldSpec),
     /// Parts that the recording declares.
     Declared,

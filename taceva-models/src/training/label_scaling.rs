@@ -65,7 +65,7 @@ impl LabelScaling {
     }
 }
 
-/// Mean label of each channel, in the unit of the channel. It is the best constant prediction of `targets`, which must not be empty.
+/// Mean label of each channel, in the unit of the channel: the best constant prediction of `targets`, which must not be empty.
 pub fn label_means(targets: Targets<'_>) -> Vec<f64> {
     let channels = targets.channels.len();
     let mean = |channel: usize| {

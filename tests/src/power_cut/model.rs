@@ -54,7 +54,7 @@ impl Disk {
     /// Loads the folder at `path`, all of it durable.
     ///
     /// # Errors
-    /// Errors of reading it.
+    /// Errors of reading the folder.
     pub fn load(path: &Path) -> std::io::Result<Disk> {
         let mut disk = Disk {
             objects: vec![Object::Folder(Layered::settled(Names::new()))],

@@ -20,7 +20,7 @@ pub(super) fn joined(prefix: &str, name: &str) -> String {
 /// Reads the content of the folder at `path`.
 ///
 /// # Errors
-/// Errors of reading it.
+/// Errors of reading the folder.
 pub fn read_tree(path: &Path) -> std::io::Result<Tree> {
     Ok(Disk::load(path)?.live_tree())
 }

@@ -69,7 +69,7 @@ impl Runner {
     /// Output of `command`; the path `$OUT` is removed from it.
     ///
     /// # Errors
-    /// [`RunnerError`] if it cannot be run or fails.
+    /// [`RunnerError`] if the command cannot be run or fails.
     pub fn run(&self, command: &str) -> Result<String, RunnerError> {
         let path = env::var_os("PATH").unwrap_or_default();
         let ours = [self.programs.clone(), self.programs.join("examples")];

@@ -1,5 +1,5 @@
 //! Files that mention one example of a metric, a model, a check, a preset, a driver and a kind of device: the files to change for a new
-//! one.
+//! item.
 
 use std::fs;
 use std::path::{Path, PathBuf};

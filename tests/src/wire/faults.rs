@@ -136,7 +136,7 @@ impl Played {
         self.stopped_ms.get(middle).copied().unwrap_or_default()
     }
 
-    /// 99.9 % quantile of the times to a stop, ms: the greatest of fewer than 1000. 0 if there is none.
+    /// 99.9 % quantile of the times to a stop, ms: the greatest time if there are fewer than 1000. 0 without times.
     pub fn most_but_one_in_1000_ms(&self) -> f64 {
         let over = self.stopped_ms.len() / 1000;
         let quantile = self.stopped_ms.iter().rev().nth(over);

@@ -248,7 +248,7 @@ impl WallBench {
     }
 }
 
-/// Unit of the sensor: the nominal one.
+/// Number of the nominal sensor unit.
 const UNIT: u32 = 0;
 
 impl Inner {

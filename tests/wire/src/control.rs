@@ -106,7 +106,7 @@ impl Control {
     /// Listens for requests about `bench` and its arm, if any; port 0 selects any free port.
     ///
     /// # Errors
-    /// [`WireError`] if it cannot listen on the port.
+    /// [`WireError`] if the server cannot listen on the port.
     pub fn start(
         bench: &WallBench,
         arm: Option<Arc<dyn Arm>>,

@@ -58,7 +58,7 @@ struct Inside {
     damaged: u32,
     /// Line that will be lost; `None` if no line will be lost.
     lost: Option<String>,
-    /// Commands received while another one waits for the motions.
+    /// Commands received while an earlier command waits for the motions.
     lines: VecDeque<String>,
 }
 
@@ -94,7 +94,7 @@ impl Emulator {
         self.printer.inside().damaged = lines;
     }
 
-    /// Loses the next line that is `line`.
+    /// Loses the next line that equals `line`.
     pub fn lose(&self, line: &str) {
         self.printer.inside().lost = Some(line.to_owned());
     }

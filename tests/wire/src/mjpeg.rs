@@ -51,7 +51,7 @@ impl Emulator {
     /// Starts a camera behind the gel of `bench`; port 0 selects any free port.
     ///
     /// # Errors
-    /// [`WireError`] if it cannot listen on the port.
+    /// [`WireError`] if the server cannot listen on the port.
     pub fn start(
         bench: &WallBench,
         host: Ipv4Addr,

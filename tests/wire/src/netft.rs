@@ -36,7 +36,7 @@ impl Emulator {
     /// Starts a box whose transducer measures the force on the gel of `bench`; port 0 selects any free port.
     ///
     /// # Errors
-    /// [`WireError`] if it cannot listen on a port.
+    /// [`WireError`] if the server cannot listen on a port.
     pub fn start(
         bench: &WallBench,
         host: Ipv4Addr,

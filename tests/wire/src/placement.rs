@@ -96,7 +96,7 @@ impl Placement {
         [r21 - r12, r02 - r20, r10 - r01].map(|part| part / 2.0)
     }
 
-    /// The frame `inner`, which is placed in this one.
+    /// The frame `inner`, which is placed in this frame.
     pub(crate) fn then(&self, inner: &Placement) -> Placement {
         let moved = self.turned(inner.at_mm);
         Placement {

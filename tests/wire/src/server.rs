@@ -33,7 +33,7 @@ impl End {
 
 /// Interval at which a thread that waits for a client checks for the end.
 const LOOK: Duration = Duration::from_millis(5);
-/// Longest time that a client without reads may block its thread. It is long, because a busy processor delays clients.
+/// Longest time that a client without reads may block its thread. The time is long, because a busy processor delays clients.
 const WRITING: Duration = Duration::from_secs(30);
 
 impl Server {

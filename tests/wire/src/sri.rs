@@ -1,7 +1,7 @@
 //! Emulated interface box of SRI: commands and a stream of frames on one port.
 //!
 //! Supported: queries of the decoupling matrix and its unit, rate, checksums by sum and CRC32, engineering units, start, stop and zero. Zero is
-//! not answered while it streams, as public drivers report. Not supported: counts, several readings per frame, persistent settings.
+//! not answered while the box streams, as public drivers report. Not supported: counts, several readings per frame, persistent settings.
 
 mod session;
 
@@ -25,7 +25,7 @@ impl Emulator {
     /// Starts a box whose transducer measures the force on the gel of `bench`; port 0 selects any free port.
     ///
     /// # Errors
-    /// [`WireError`] if it cannot listen on the port.
+    /// [`WireError`] if the server cannot listen on the port.
     pub fn start(bench: &WallBench, host: Ipv4Addr, port: u16) -> Result<Emulator, WireError> {
         let end = End::default();
         let serving = (bench.clone(), end.clone());

@@ -51,7 +51,7 @@ impl Emulator {
     /// for script have their usual ports if both others have theirs, and otherwise any free ones.
     ///
     /// # Errors
-    /// [`WireError`] if it cannot listen on a port.
+    /// [`WireError`] if the server cannot listen on a port.
     pub fn start(
         bench: &WallBench,
         host: Ipv4Addr,

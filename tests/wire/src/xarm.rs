@@ -54,9 +54,9 @@ pub struct Ports {
     pub host: Ipv4Addr,
     /// Port of commands.
     pub command: u16,
-    /// Port of poses; `None` for a controller without it.
+    /// Port of poses; `None` for a controller without this port.
     pub pose: Option<u16>,
-    /// Port of errors; `None` for a controller without it.
+    /// Port of errors; `None` for a controller without this port.
     pub status: Option<u16>,
     /// Port of complete reports.
     pub rich: u16,
@@ -91,7 +91,7 @@ impl Emulator {
     /// Starts an arm over the gel of `bench`: enabled, ready, 20 mm above it.
     ///
     /// # Errors
-    /// [`WireError`] if it cannot listen on a port.
+    /// [`WireError`] if the server cannot listen on a port.
     pub fn start(bench: &WallBench, ports: Ports) -> Result<Emulator, WireError> {
         let end = End::default();
         let controller = Arc::new(Controller::new(bench.clone(), ports.firmware));
@@ -136,7 +136,7 @@ impl Emulator {
         })
     }
 
-    /// Address of `port`; the command port if the arm lacks it.
+    /// Address of `port`; the command port if the arm lacks `port`.
     pub fn address(&self, port: Port) -> SocketAddr {
         let found = self.reports.iter().find(|(kind, _)| *kind == port);
         found.map_or(self.command.address(), |(_, server)| server.address())

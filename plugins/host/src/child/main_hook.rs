@@ -26,7 +26,7 @@ pub const CHILD_ARGUMENT: &str = "--taceva-host-child";
 /// Returns at once unless this process was started as a host child. A host child confines itself, calls `load` with the files from the
 /// host, serves the result until the host is gone, and ends.
 ///
-/// A program that embeds the host calls this first in `main`, while it has one thread and no open file.
+/// A program that embeds the host calls this function first in `main`, while it has one thread and no open file.
 ///
 /// # Errors
 /// If `load` fails, the host receives its error kind and message.

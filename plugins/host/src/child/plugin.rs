@@ -63,7 +63,7 @@ pub struct ModuleToImport {
 
 impl ChildSpec {
     /// Specifies a child that loads `image`, the library of the plugin with `manifest`. The child has no access to the outside until
-    /// [`confinement`](ChildSpec::confinement) is set. It does not start if `quarantine` contains the library.
+    /// [`confinement`](ChildSpec::confinement) is set. The child does not start if `quarantine` contains the library.
     ///
     /// # Errors
     /// If the memory for the description cannot be allocated.
@@ -145,7 +145,7 @@ fn sealed(label: &Label) -> io::Result<OwnedFd> {
 /// Returns at once unless this process was started as a host child. A host child confines itself, loads its plugin, serves it until the
 /// host is gone, and ends.
 ///
-/// A program that embeds the host calls this first in `main`, while it has one thread and no open file.
+/// A program that embeds the host calls this function first in `main`, while it has one thread and no open file.
 pub fn main_if_child() {
     serve_libraries(None);
 }

@@ -15,7 +15,7 @@ use super::wire::{Failure, OpenedDevice, Order, OrderAnswer};
 use super::{bench, model};
 use crate::session::Session;
 
-/// Answers orders until the host is gone or sends the order to end. Without a session, it returns on the first order.
+/// Answers orders until the host is gone or sends the order to end. Without a session, the function returns on the first order.
 pub(super) fn serve(mut orders: Socket, session: Option<&Arc<dyn Session>>) {
     // Any failure to receive means that the host is gone.
     while let Ok(((sequence, order), files)) = orders.receive_with_files::<(u32, Order)>() {

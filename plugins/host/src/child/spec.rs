@@ -32,7 +32,7 @@ pub struct ChildSpec {
     pub patience: Patience,
     /// Callback that the keeper thread calls once, with the reason for the end of the child.
     pub ended: Option<Ended>,
-    /// True if the child loads a plugin. Otherwise it only reports its isolation.
+    /// True if the child loads a plugin. Otherwise the child only reports its isolation.
     pub loads: bool,
     /// Callback for log lines of the plugin, on a separate thread. Without a callback, errors and warnings are part of the child's printed output.
     pub log: Option<Log>,

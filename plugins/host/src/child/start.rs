@@ -47,7 +47,7 @@ impl Child {
     /// Starts a child and waits until it has confined itself and loaded its plugin.
     ///
     /// # Errors
-    /// [`ChildError`] if it does not start, or refuses to serve.
+    /// [`ChildError`] if the child does not start, or refuses to serve.
     pub fn start(spec: ChildSpec) -> Result<Arc<Child>, ChildError> {
         let ChildSpec {
             plugin,

@@ -124,7 +124,7 @@ impl<'a> Reader<'a> {
         taken.try_into().map_err(|_| self.malformed(expected))
     }
 
-    /// Reads an item count. Fails if it exceeds the remaining bytes, because an item has at least one byte.
+    /// Reads an item count. Fails if the count exceeds the remaining bytes, because an item has at least one byte.
     fn count(&mut self) -> Result<usize, Malformed> {
         let left = self.bytes.len() - self.at;
         let count = u32::read(self)?;

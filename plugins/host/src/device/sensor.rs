@@ -28,7 +28,7 @@ pub struct PluginSensor {
     length: usize,
     lighting: Option<LightingAbility>,
     timing: SampleTiming,
-    /// Sequence number of the last frame; `None` if the device does not number frames.
+    /// Sequence number of the last frame; `None` before the first frame, and if the device does not number frames.
     sequence: Option<u64>,
     /// Number of losses that the device flagged without a gap in its numbers.
     flagged: u64,

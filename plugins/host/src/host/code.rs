@@ -38,7 +38,7 @@ impl Plugin {
     /// Reads the plugin's code.
     ///
     /// # Errors
-    /// [`DriverError`] of `driver` if it cannot be read or is not a library.
+    /// [`DriverError`] of `driver` if the code cannot be read or is not a library.
     pub(crate) fn read(&self, driver: &DriverKey) -> Result<ReadCode, DriverError> {
         match &self.code {
             Code::Library(library) => {
@@ -56,7 +56,7 @@ impl Plugin {
     /// Specifies a child that runs `code`. The child is unconfined if `is_trusted`.
     ///
     /// # Errors
-    /// [`DriverError`] of `driver` if no interpreter can run it, or the user of a confined child may not read it.
+    /// [`DriverError`] of `driver` if no interpreter can run the code, or the user of a confined child may not read the code.
     #[cfg(target_os = "linux")]
     pub(crate) fn child(
         &self,

@@ -28,7 +28,7 @@ pub struct PluginDriver {
 }
 
 impl PluginDriver {
-    /// Opens a device in the plugin's session of `rig`. Registers the device's bench in the rig, if it has one.
+    /// Opens a device in the plugin's session of `rig`. Registers the bench of the device, if any, in the rig.
     fn open_in<D: ?Sized>(
         &self,
         args: &Args,

@@ -21,7 +21,7 @@ const WORDS: [&str; 9] = [
     "camera", "device", "hid", "listen", "read", "serial", "tcp", "udp", "usb",
 ];
 
-/// Resource outside the plugin that it must access.
+/// Outside resource that a plugin must access.
 ///
 /// ```
 /// use taceva_host::Need;

@@ -11,7 +11,7 @@ use crate::wire_version::WIRE;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PythonError {
-    /// No interpreter can run it.
+    /// No interpreter can run the plugin.
     #[error("it is written in Python, and {}", without_interpreter(rejected))]
     NoInterpreter {
         /// The named interpreters, each with the reason why it cannot run the plugin.

@@ -9,11 +9,11 @@ use super::run::output;
 
 /// Script that queries the interpreter.
 const ASK: &str = include_str!("ask.py");
-/// First line of the answer. Output before it is ignored.
+/// First line of the answer. Output before this line is ignored.
 const BEGIN: &str = "# taceva environment\n";
 /// File of the package `taceva` that runs a plugin's process.
 const CHILD: &str = "plugin_child.py";
-/// System files that list the processors. Numeric libraries read them.
+/// System files that list the processors, for numeric libraries.
 const OF_PROCESSORS: [&str; 2] = ["/proc/cpuinfo", "/sys/devices/system/cpu"];
 
 /// Python interpreter whose environment has the package `taceva`.

@@ -29,8 +29,8 @@ impl Profile {
         }
     }
 
-    /// Table of one function, with a value at each [`node`]. [`Quantity::Sink`] and [`Quantity::Along`] are in mm; the other quantities are divided
-    /// by mm for each factor r.
+    /// Table of one function, with a value at each [`node`]. [`Quantity::Sink`] and [`Quantity::Along`] are in mm; each division by r and each
+    /// derivative divides the unit by mm.
     pub fn table(&self, quantity: Quantity) -> &Radial {
         &self.tables[quantity as usize]
     }

@@ -19,7 +19,7 @@ const SHARED: usize = 10;
 
 /// Radial functions of a bonded incompressible layer at one depth below its surface.
 ///
-/// Construction evaluates some hundred thousand Bessel functions in a tenth of a second. Do it once per sensor.
+/// Construction evaluates some hundred thousand Bessel functions in a tenth of a second. Construct the tables once per sensor.
 #[derive(Clone, Debug)]
 pub struct Tables {
     thickness_mm: f64,

@@ -2,7 +2,7 @@
 //!
 //! # Reference
 //! Hertz (1882); Johnson, *Contact Mechanics* (1985), chapters 3 and 4. The ball counts as a paraboloid, which is valid for contact radii up to a
-//! third of the ball's radius. At half that radius, the force of an exact sphere is about 10 % lower.
+//! third of the ball's radius. At a contact radius of half the ball's radius, the force of an exact sphere is about 10 % lower.
 
 use std::f64::consts::PI;
 

@@ -188,7 +188,7 @@ impl Camera {
     }
 }
 
-/// Counts of a 16-bit frame in one DN of the sensor's own 8 bits.
+/// Counts of a 16-bit frame per DN.
 pub(super) const COUNTS_PER_DN: u64 = 256;
 
 #[cfg(test)]

@@ -22,10 +22,10 @@ pub(super) struct Window {
 
 /// Visible grating: the first harmonics of its square waves, each attenuated by layer, lens and pixel.
 ///
-/// Lines are sq(u), dots sq(u) sq(v), with sq the square wave of ±1 and period 2w, u and v along the board's sides.
+/// Lines are sq(u), dots sq(u) sq(v), with sq the square wave of ±1 and period 2w (w the spacing), u and v along the board's sides.
 ///
-/// * The layer follows a wave of amplitude A and wave number k under a pressure A k E / (1.5 L(k h)). A lower pressure has a proportional
-///   effect.
+/// * The layer follows a wave of amplitude A and wave number k under a pressure A k E / (1.5 L(k h)), with modulus E, thickness h and the
+///   layer's kernel L. A lower pressure has a proportional effect.
 /// * The lens passes exp(−k²σ²/2), for harmonic m exp(−2 (π σ m / 2w)²).
 /// * A pixel of side p passes sin(k p/2) / (k p/2), the same in every direction.
 #[derive(Clone, Debug)]

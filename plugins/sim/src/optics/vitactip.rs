@@ -47,11 +47,11 @@ struct Scene {
     disc: Disc,
     /// Skin under its own lamps, without markers.
     skin: Vec<f32>,
-    /// Places of the markers on the untouched dome, in mm from its centre; then their places in the picture.
+    /// Places of the markers on the untouched dome, in mm from its centre; the next field has their places in the picture.
     markers: Vec<[f64; 3]>,
     seen: Vec<[f32; 2]>,
     marks: Marks,
-    /// Places of the marks on the untouched dome, then in the picture.
+    /// Places of the marks on the untouched dome; the next field has their places in the picture.
     worn: Vec<[f64; 3]>,
     worn_seen: Vec<[f32; 2]>,
 }

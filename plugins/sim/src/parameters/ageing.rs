@@ -21,7 +21,7 @@ impl Parameters {
     /// The sensor after presses whose forces add up to L = `load_kn`. Without a section `ageing` nothing changes.
     ///
     /// With the rates s and p, stiffness is multiplied by e^(−s L) and friction by e^(−p L). The gloss grows by 1 − e^(−p L).
-    /// Entries and digest do not change, because it is the same gel at another age.
+    /// Entries and digest do not change, because the gel is the same at another age.
     ///
     /// ```
     /// use taceva_sim::{Model, Parameters};

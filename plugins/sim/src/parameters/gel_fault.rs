@@ -119,7 +119,7 @@ impl GelFault {
             GelFault::Friction => "share of the friction that is lost",
             GelFault::Shift => "shift along x, mm",
             GelFault::Thickness => "share of the thickness that is lost",
-            GelFault::Gloss => "directed light that is added, share of that before",
+            GelFault::Gloss => "directed light that is added, share of the directed light before",
             GelFault::Scratches => "number of scratches",
             GelFault::Tear => "radius, share of the width",
             GelFault::Dust => "number of specks",

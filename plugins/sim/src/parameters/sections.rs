@@ -143,7 +143,7 @@ section! {
         jitter_mm: "mm", 0.0 ..= 1.0;
         /// Number of markers in a row; on a dome, of rings of a hexagon around the central marker.
         columns: "1", 1.0 ..= 200.0;
-        /// Number of rows; on a dome, the same as the rings.
+        /// Number of rows; on a dome, equal to the number of rings.
         rows: "1", 1.0 ..= 200.0;
     }
 }
@@ -183,7 +183,7 @@ section! {
 section! {
     /// Ageing of the gel by presses. A gel without this section does not age.
     Ageing, "ageing", {
-        /// Rate at which the gel loses stiffness, for a kilonewton: the sum of the forces of all presses. Negative if the gel hardens.
+        /// Rate at which the gel loses stiffness, per kilonewton of the sum of the forces of all presses. Negative if the gel hardens.
         softening_per_kn: "1/kN", -10.0 ..= 100.0;
         /// Rate at which the surface loses friction and gains gloss.
         polishing_per_kn: "1/kN", 0.0 ..= 100.0;

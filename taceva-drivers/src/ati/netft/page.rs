@@ -145,7 +145,7 @@ impl Page {
     }
 }
 
-/// Number of a page: finite, with a decimal point.
+/// Number of a page: finite, with `.` as decimal sign.
 pub(super) fn number(text: &str) -> Option<f64> {
     text.parse().ok().filter(|number: &f64| number.is_finite())
 }

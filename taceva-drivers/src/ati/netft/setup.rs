@@ -51,7 +51,7 @@ pub(super) struct Expected {
 const CUTOFFS_HZ: [f64; 12] = [
     838.0, 326.0, 152.0, 73.0, 35.0, 18.0, 8.0, 5.0, 1_500.0, 2_000.0, 2_500.0, 3_000.0,
 ];
-/// Greatest difference of two rates, or of two ranges, that count as equal.
+/// Greatest relative difference of two rates, or of two ranges, that count as equal.
 const EQUAL: f64 = 0.01;
 
 impl Setup {

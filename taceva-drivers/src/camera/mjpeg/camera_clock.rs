@@ -10,7 +10,7 @@ const STEP_S: f64 = 10.0;
 /// Offset of a server's clock from the monotonic clock of this machine.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct CameraClock {
-    /// Least time from a server's stamp to the arrival, s; `None` before the first picture. Delays only add to it.
+    /// Least time from a server's stamp to the arrival, s; `None` before the first picture. Delays only add to this time.
     behind_s: Option<f64>,
     /// Time from the stamp to the arrival of the last picture, s; `None` before the first.
     newest_s: Option<f64>,

@@ -27,7 +27,7 @@ submit_builtin!(dyn Sensor, || Ok(Box::new(MjpegFactory::new()?)));
 /// - Only plain HTTP without a password is supported. Redirections are not followed.
 ///
 /// # Verification
-/// Tests use ffmpeg as a server (`-f mpjpeg -listen 1`), and streams in the formats of `ustreamer` and `mjpg-streamer`. These have the
+/// Tests use ffmpeg as a server (`-f mpjpeg -listen 1`), and streams in the formats of `ustreamer` and `mjpg-streamer`. The streams have the
 /// boundary in the header or in the body, with and without lengths, chunked. The driver passes its suite on an emulated camera with each
 /// format. **Not verified without the device**: its latency, and its automatic settings.
 ///

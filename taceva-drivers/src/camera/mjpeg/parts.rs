@@ -53,7 +53,7 @@ const PART_HEAD_MAX: usize = 8 << 10;
 const SEARCHED_MAX: usize = 8 << 10;
 
 impl Parts {
-    /// Creates a splitter for `boundary`. If it is `None`, the first line that begins with two hyphens sets the delimiter.
+    /// Creates a splitter for `boundary`. If `boundary` is `None`, the first line that begins with two hyphens sets the delimiter.
     pub(super) fn new(boundary: Option<&str>) -> Parts {
         Parts {
             waiting: Vec::new(),

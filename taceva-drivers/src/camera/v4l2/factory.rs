@@ -34,14 +34,14 @@ submit_builtin!(dyn Sensor, || Ok(Box::new(V4l2Factory::new()?)));
 /// - A frame is the newest image received, with the kernel's time stamp on the monotonic clock. Missed images are counted by the camera's numbers. A
 ///   damaged, short or wrongly sized image is an error of that frame. An unplugged camera is `Disconnected`; `start` reopens it.
 /// - A camera serves one program. A second program gets an error that the camera is in use.
-/// - With `preset=digit`, `led` sets the LEDs of the sensor at open and at every start. They are read back, stored with a recording, and an error if
-///   they do not keep the value. Without `led` they stay unchanged and are read back.
+/// - With `preset=digit`, `led` sets the LEDs of the sensor at open and at every start. The LEDs are read back, and stored with a recording. LEDs
+///   that do not keep the value are an error. Without `led` the LEDs stay unchanged and are read back.
 ///
 /// # Verification
 /// The kernel's emulated camera `vivid` in a virtual machine (`taceva-wire`, test `kernel`): YUYV pixels against its colour bars, the suite, gain, a
 /// second program, unplugging. `vivid` gives only uncompressed pixels and, of the fixed controls, only gain and automatic gain. The test checks that
-/// it rejects `pixels=mjpeg`, `exposure_ms`, `white_balance_k` and `focus`. **Not verified without the device**: JPEG through this interface (decoded
-/// as in `camera/mjpeg`), exposure, white balance and focus, the presets, and any latency.
+/// `vivid` rejects `pixels=mjpeg`, `exposure_ms`, `white_balance_k` and `focus`. **Not verified without the device**: JPEG through this interface
+/// (decoded as in `camera/mjpeg`), exposure, white balance and focus, the presets, and any latency.
 ///
 /// ```
 /// use taceva_core::Factory;

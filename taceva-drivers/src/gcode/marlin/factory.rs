@@ -22,11 +22,11 @@ submit_builtin!(dyn Robot, || Ok(Box::new(MarlinFactory::new()?)));
 ///   would wait for the end of the motion. Firmware without `M118` is rejected too: it sends no echo. The firmware, the type and the UUID
 ///   that `M115` states are settings.
 /// - A move is one `G1` followed by the wait `M400` and an echo (`M118`). It ends once the echo has come and `M114` is within 0.02 mm of the
-///   target. The printer reports no position during the move. After 5 s without output, or without a whole echo, it counts as gone. Its
+///   target. The printer reports no position during the move. After 5 s without output, or without a whole echo, the printer counts as gone. The
 ///   firmware therefore needs `HOST_KEEPALIVE_FEATURE`, which is on by default.
-/// - A halt is `M410`, which stops the motors **without deceleration**. Above a few mm/s a printer may lose steps, and with them its
-///   position. Move slowly, and home it after a halt at speed. `clear_halt` sends no motion.
-/// - An `Error:` of the firmware ends a move with `DeviceFault`; a person resets it.
+/// - A halt is `M410`, which stops the motors **without deceleration**. Above a few mm/s a printer may lose steps, and with the steps its
+///   position. Move slowly, and home the printer after a halt at speed. `clear_halt` sends no motion.
+/// - An `Error:` of the firmware ends a move with `DeviceFault`; a person resets the printer.
 ///
 /// # Verification
 /// The driver passes its suite on an emulated printer on a pseudo-terminal. The virtual printer of OctoPrint 1.11.8 answers `M114`, `M115`,

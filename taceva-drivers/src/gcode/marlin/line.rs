@@ -11,7 +11,7 @@ pub(super) type Place = [f64; 3];
 /// Prefix of a number that the printer must echo.
 pub(super) const MARK: &str = "taceva mark ";
 
-/// Errors of a line that arrived damaged. The printer asks for it again.
+/// Errors of a line that arrived damaged. The printer asks for the line again.
 const DAMAGED: [&str; 4] = [
     "checksum mismatch",
     "No Checksum with line number",

@@ -21,8 +21,8 @@ use crate::{OpenError, Selector};
 /// - The device must be selected by `usb`, `serial` or `device`. Pedals do not identify themselves, and a moving mouse must not count as a
 ///   pedal.
 /// - The pedal is held while one of its bits is set. The watching code halts the robot once the pedal is released, unplugged or not understood.
-///   Until its first report it counts as released, so press it after opening.
-/// - A pedal reports only changes, so a pedal whose electronics fail while it is held still counts as held. **It is not a safety function**;
+///   Until its first report the pedal counts as released, so press it after opening.
+/// - A pedal reports only changes, so a pedal whose electronics fail while it is held still counts as held. **The pedal is not a safety function**;
 ///   the switch of the robot's own safety circuit is.
 /// - Pedals that act as keyboards keep typing their letter into the focused window.
 ///

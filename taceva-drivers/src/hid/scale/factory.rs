@@ -18,7 +18,7 @@ submit_builtin!(dyn ForceTransducer, || Ok(Box::new(ScaleFactory::new()?)));
 /// # The physical contract
 /// - A load presses with its weight, 9.80665 N per kilogram: Fz, positive when pressing. No other component is measured.
 /// - Intended for **recordings by hand** (`taceva capture`), where a person presses slowly: a scale filters, and sends a few weights per
-///   second. `rate` states how many. At the default of 2 Hz a plan with a robot is rejected, since nothing would stop the robot in time.
+///   second, as `rate` states. At the default of 2 Hz a plan with a robot is rejected, since nothing would stop the robot in time.
 /// - Opening and starting send nothing. A weight is stamped with the arrival time of its report.
 /// - An overloaded scale is `OutOfRange`. A lost zero, a required calibration or a fault is `DeviceFault`. An unplugged scale is
 ///   `Disconnected` and must be reopened.

@@ -21,10 +21,10 @@ submit_builtin!(dyn Robot, || Ok(Box::new(XarmFactory::new()?)));
 ///   Studio: this driver never enables motors and never clears an error.
 /// - A move is one straight line with all six numbers of the pose. It ends once the controller is ready, its queue is empty and the
 ///   reported pose is within 0.05 mm of the target.
-/// - Speeds and accelerations outside the limits of the controller's complete report are refused, because it would change them without an
+/// - Speeds and accelerations outside the limits of the controller's complete report are refused, because the controller would change them without an
 ///   error. Without that report the limits are unknown, and the driver gives a warning.
 /// - An expiring motion uses velocities that last 0.2 s (register 82, since firmware 1.10.0), renewed 20 times per second. Its last 0.1 s
-///   is a line. For this the mode of the controller changes and back, which stops the arm for a moment.
+///   is a line. For this the mode of the controller changes and then changes back, which stops the arm for a moment.
 /// - A halt uses a separate connection, which is tested twice per second; without it no move begins. The controller confirms the halt.
 ///   After 40 ms without an answer the halt is also sent over the other connection. `clear_halt` makes the controller ready again unless it has
 ///   an error.

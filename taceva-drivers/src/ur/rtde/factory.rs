@@ -27,12 +27,12 @@ submit_builtin!(dyn Robot, || Ok(Box::new(UrFactory::new()?)));
 /// - Emergency, protective and safeguard stops end a move with `DeviceFault`.
 /// - A speed slider of the pendant below 100 % gives a warning, since every motion is then slower.
 /// - A controller without one of the seven outputs that the driver reads is refused; the error names the output and the version of the controller.
-/// - During a move, the states that the arm sends are watched; they report these stops too.
+/// - During a move, the states that the arm sends are watched; the states report emergency, protective and safeguard stops too.
 ///
 /// # Verification
 /// The driver passes its suite on an emulated controller, whose poses the public client `ur-rtde` 1.6.5 reads too. Only this driver has
-/// sent it script. **Not verified without the device**: how soon a program begins and `stopl` ends a program, and bits of the safety status,
-/// which are from the documents. Also whether an arm keeps its speed when a `speedl` program of 0.2 s replaces another every 50 ms.
+/// sent script to that controller. **Not verified without the device**: how soon a program begins and `stopl` ends a program, and bits of
+/// the safety status, which are from the documents. Also whether an arm keeps its speed if a `speedl` program of 0.2 s replaces another every 50 ms.
 ///
 /// ```
 /// use taceva_core::Factory;

@@ -64,7 +64,7 @@ pub(super) struct ArmState {
 /// Message of the controller.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Message {
-    /// Acceptance of the request with this message type.
+    /// Answer to the request with this message type; true if the request is accepted.
     Accepted(u8, bool),
     /// Types of the requested outputs.
     Types(String),

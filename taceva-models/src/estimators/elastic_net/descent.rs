@@ -22,8 +22,8 @@ const ENOUGH: f64 = 3e-4;
 
 /// Computes the weights at each strength.
 ///
-/// Starts with the strongest penalty. Every other strength starts from the weights of the previous strength. A strength ends if a sweep changes predictions by
-/// at most 0.0003 of the typical label, or after 1,000 sweeps.
+/// Starts with the strongest penalty. Every other strength starts from the weights of the previous strength. The sweeps at a strength end if a sweep
+/// changes predictions by at most 0.0003 of the typical label, or after 1,000 sweeps.
 pub(super) fn path(
     predictors: &Predictors,
     target: Target<'_>,

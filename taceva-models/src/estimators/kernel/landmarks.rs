@@ -11,7 +11,7 @@ use crate::linalg::{FeatureScale, dot};
 /// Kernel length used to choose landmarks.
 const LENGTH: f64 = 1.0;
 
-/// Unexplained share below which a sample cannot become a landmark. It equals the rounding error of single precision.
+/// Unexplained share below which a sample cannot become a landmark. Smaller shares are rounding errors of single precision.
 pub(super) const EXPLAINED: f64 = 1e-5;
 
 /// Number of samples per task of a thread.

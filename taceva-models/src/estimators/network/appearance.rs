@@ -9,8 +9,8 @@ use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 /// Kind of signal in a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Appearance {
-    /// Moving markers: subtracts a local mean, divides each picture by its standard deviation, and shifts training pictures. Widths are the widths of
-    /// [`USUAL`], in proportion to the picture's width.
+    /// Moving markers: subtracts a local mean, divides each picture by its standard deviation, and shifts training pictures. The lengths of
+    /// [`USUAL`] are scaled with the picture's width.
     Markers,
     /// Light and position: pictures are unchanged.
     Light,

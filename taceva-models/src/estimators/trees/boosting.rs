@@ -20,7 +20,7 @@ use crate::training::trials::{Trials, rows_of};
 
 /// Gradient boosting of squared errors: fits each tree to the residuals of the previous trees, and adds a share of its predictions.
 ///
-/// Each channel has its own trees. Their number has the least squared error on the validation part, or on folds of the training part without a
+/// Each channel has its own trees. The number of trees has the least squared error on the validation part, or on folds of the training part without a
 /// validation part.
 ///
 /// # Reference

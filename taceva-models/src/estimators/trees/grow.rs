@@ -10,7 +10,7 @@ use taceva_core::random::SplitMix64;
 /// Limits of a tree's growth.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Growth {
-    /// Maximum depth: number of nodes from the root to a leaf.
+    /// Maximum depth: number of comparisons from the root to a leaf.
     pub(super) depth: usize,
     /// Minimum number of samples in a leaf.
     pub(super) leaf: usize,

@@ -44,7 +44,7 @@ const THRESHOLD: &str = "trees.threshold";
 const VALUES: &str = "trees.values";
 
 impl TreeRegressor {
-    /// Builds a regressor from trees. Their values, in centred and scaled labels, sum to the prediction.
+    /// Builds a regressor from trees. The values of the trees, in centred and scaled labels, sum to the prediction.
     pub(super) fn new(
         channels: Channels,
         shape: FeatureShape,

@@ -28,7 +28,7 @@ pub(crate) struct MarkerField {
     cells: Vec<Cell>,
 }
 
-/// Centre of a cell, and the markers from which its displacement is interpolated. There are none if no marker is near.
+/// Centre of a cell, and the markers from which its displacement is interpolated. A cell has no markers if none is near.
 #[derive(Debug)]
 struct Cell {
     middle_px: [f64; 2],

@@ -3,7 +3,7 @@
 use super::plane::Plane;
 use super::spots::{Marker, Polarity, Scale, distance, spots};
 
-/// Minimum contrast of a marker, in standard deviations of noise. By chance, fewer than one in a million pixels exceed it.
+/// Minimum contrast of a marker, in standard deviations of noise. By chance, fewer than one in a million pixels exceed this contrast.
 const SIGNIFICANT: f32 = 6.0;
 /// Minimum contrast of a marker, relative to the upper quartile of all spots. The low value allows for uneven lamps.
 const ALIKE: f32 = 0.15;
@@ -18,7 +18,7 @@ const NEIGHBOURS: usize = 6;
 /// Minimum number of spots in a grid. Fewer spots would fit into any arrangement.
 const GRID_MIN: usize = 9;
 /// Largest allowed unevenness of a grid. Unevenness is the median relative excess of the distance to the third nearest spot over the distance to the
-/// nearest. It is 0 in square and hexagonal grids, and about 0.5 for random spots.
+/// nearest. The unevenness is 0 in square and hexagonal grids, and about 0.5 for random spots.
 const UNEVEN: f64 = 0.3;
 
 /// Markers of an untouched gel.

@@ -22,7 +22,7 @@ pub struct TaskCard {
     /// Class that the model should find, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub positive: Option<String>,
-    /// Column with equal values in samples that resemble each other. Windows of frames end at its changes.
+    /// Column with equal values in samples that resemble each other. Windows of frames end where the value changes.
     pub cluster: String,
 }
 

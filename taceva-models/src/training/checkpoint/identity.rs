@@ -18,7 +18,7 @@ pub(crate) struct Identity {
 pub(super) struct Origin {
     /// Digest of all labels and of the preprocessed pictures.
     samples: String,
-    /// True if products are rounded because fused multiply-add is not available. This changes the last digits.
+    /// True if products are rounded because fused multiply-add is not available. The rounding changes the last digits.
     rounds_products: bool,
     /// Training device: `cpu`, or the kind of GPU. GPUs sum in no fixed order.
     device: String,

@@ -73,7 +73,7 @@ const REGISTERS: [(&str, &str, u32); 4] = [
 /// Answer for an output that the controller lacks.
 pub(super) const NOT_FOUND: &str = "NOT_FOUND";
 
-/// Type of the output `name` of a controller of version `major.minor`; [`NOT_FOUND`] if it lacks it.
+/// Type of the output `name` of a controller of version `major.minor`; [`NOT_FOUND`] if the controller lacks the output.
 pub(super) fn type_of(name: &str, [major, minor]: [u32; 2]) -> &'static str {
     let named = OUTPUTS.iter().find(|(known, ..)| *known == name);
     if let Some((_, kind, [cb3, e_series])) = named {

@@ -1,6 +1,6 @@
 //! Script of a public client (`RTDEControlInterface` of `ur-rtde`), which takes commands from input registers and answers in output registers.
 //!
-//! A controller runs the script. The emulator recognises it by its first line, and serves its registers without running it. It supports
+//! A controller runs the script. The emulator recognises the script by its first line, serves the registers without running the script, and supports
 //! motions of tip and joints, paths of motions, followed targets, a velocity without rotation, stops, and questions about rest
 //! and tool. Any other command ends the script, as an error in the script would. Registers are the lower or the upper half, as the script states.
 
@@ -179,7 +179,7 @@ impl RegisterScript {
         self.setup.first
     }
 
-    /// Takes the content of the registers. Returns it if it is to be executed now.
+    /// Takes the content of the registers. Returns the command if it is to be executed now.
     pub(super) fn take(&mut self, command: Command, is_moving: bool) -> Option<Command> {
         match (self.stage, command) {
             (Stage::Moving, _) => return None,
@@ -243,7 +243,7 @@ impl RegisterScript {
         None
     }
 
-    /// Content of an integer output register; `None` if the script does not write it.
+    /// Content of an integer output register; `None` if the script does not write the register.
     pub(super) fn output(&self, number: usize) -> Option<i32> {
         let outputs = [self.state as i32, self.result, self.progress.register()];
         let at = number.checked_sub(self.setup.first)?;
@@ -278,7 +278,7 @@ impl Progress {
         self.is_moving = is_moving;
     }
 
-    /// Content of the register: numbers of the report and of the motion, and a bit while it moves.
+    /// Content of the register: numbers of the report and of the motion, and a bit while the arm moves.
     fn register(self) -> i32 {
         let moves = i32::from(self.is_moving);
         self.motions * 0x0100_0000 + self.reports * 0x0001_0000 + moves * 0x8000 + self.steps

@@ -9,7 +9,7 @@ use crate::placement::Placement;
 /// Settings of one client.
 #[derive(Debug, Default)]
 pub(super) struct Session {
-    /// True if it gets a message at the end of its later motions.
+    /// True if the client gets a message at the end of its later motions.
     wants_push: bool,
 }
 

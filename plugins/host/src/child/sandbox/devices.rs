@@ -67,7 +67,7 @@ fn is_device(metadata: &Metadata) -> bool {
         && own_terminal() != Some((major, minor))
 }
 
-/// Describes the first serial port in `needs` that exists but is not a serial port. Patterns with a star are skipped.
+/// Error text for the first serial need in `needs` whose file exists but is not a serial port. Patterns with a star are skipped.
 pub(crate) fn no_port(needs: &[Need]) -> Option<String> {
     needs.iter().find_map(|need| match need {
         Need::Serial { path } if !need.has_star() => {

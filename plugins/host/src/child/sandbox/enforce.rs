@@ -3,7 +3,7 @@
 use super::isolation::LANDLOCK_WHOLE;
 use super::{Confinement, Isolation, files, identity, seccomp};
 
-/// Permanently gives up every right that `confinement` does not grant. Call it before anything is loaded, while there is one thread.
+/// Permanently gives up every right that `confinement` does not grant. Call this function before anything is loaded, while there is one thread.
 ///
 /// # Errors
 /// Describes the right that could not be given up. The process must then end, because it may be partly confined.

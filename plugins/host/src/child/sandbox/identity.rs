@@ -61,7 +61,7 @@ pub(super) fn give_up_root(needs: &[Need]) -> Result<Option<u32>, String> {
 
 /// Makes the process end with its parent, hides its memory and blocks new privileges.
 ///
-/// Call it after the change of user, because that change resets the parent-death signal.
+/// Call this function after the change of user, because that change resets the parent-death signal.
 pub(super) fn end_with(parent: u32) -> Result<(), String> {
     let said = |what: &str, error: rustix::io::Errno| format!("cannot {what}: {error}");
     set_parent_process_death_signal(Some(Signal::KILL))

@@ -21,7 +21,7 @@ pub(crate) struct Hello {
     pub(crate) confinement: Confinement,
     /// True if the last file is the socket for the plugin's log lines.
     pub(crate) is_heard: bool,
-    /// True if the child loads a plugin. Otherwise it only reports its isolation.
+    /// True if the child loads a plugin. Otherwise the child only reports its isolation.
     pub(crate) loads: bool,
 }
 

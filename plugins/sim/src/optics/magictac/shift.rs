@@ -16,8 +16,8 @@ pub(super) struct Shift {
     pub(super) reach: f32,
 }
 
-/// Four rows of lanes: outward over r, along the shear, towards the shear's axis over r², and wetting. Each row has one lane per layer. The fourth lane of the
-/// first row is the slope of the surface over r. Its gradient is computed together with the shifts.
+/// Four rows of lanes: outward over r, along the shear, towards the shear's axis over r², and wetting. Each row has one lane per layer. The fourth
+/// lane of the first row is the slope of the surface over r, so the gradient of the surface is computed together with the shifts.
 type Node = [[f32; 4]; 4];
 
 /// Effect at a place: the shift of each layer, and in the fourth lane the gradient of the surface's depth.

@@ -25,7 +25,7 @@ impl Stream {
     /// Starts streaming. On failure the camera is closed and can be opened again.
     ///
     /// # Errors
-    /// [`V4l2Error::Busy`] if another program uses it, [`V4l2Error::Gone`] if it was unplugged.
+    /// [`V4l2Error::Busy`] if another program uses the camera, [`V4l2Error::Gone`] if the camera was unplugged.
     pub fn start(camera: Camera) -> Result<Stream, V4l2Error> {
         let mut stream = Stream {
             camera,
