@@ -18,7 +18,7 @@ use crate::progress::spoken;
 /// Prints the expected width of each wanted interval, and the points and the time that the wanted width needs. Predicts them from the results `from`.
 ///
 /// # Errors
-/// If the scene wants no width, or `from` cannot be read or has other studies.
+/// If the scene wants no width, or `from` cannot be read or has only results of other studies.
 pub(super) fn print_expected(
     planned: &PlannedScene,
     from: Option<&Path>,
@@ -26,14 +26,28 @@ pub(super) fn print_expected(
     context: &Context,
 ) -> anyhow::Result<()> {
     let wanted = planned.scene.metrics.wanted_widths();
-    let reports = from
-        .map(|path| reports(path, planned, &wanted))
-        .transpose()?;
+    let reports = from.map(|path| reports(path, &wanted)).transpose()?;
+    let partners = match (from, &reports) {
+        (Some(path), Some(reports)) => Some(partners(path, planned, reports)?),
+        _ => None,
+    };
     for (number, study) in planned.studies.iter().enumerate() {
+        let pilot = partners.as_ref().map(|partners| partners[number]);
+        if let (Some(None), Some(reports), Some(_)) = (pilot, &reports, tested(study)) {
+            if wanted.iter().any(|wanted| study.plan.scores(wanted)) {
+                context.say(format_args!(
+                    "width: {}: not predicted, because the earlier run has no result of this study on unit {}: it has {}",
+                    shown(&study.plan.name),
+                    shown(study.plan.units.first().map_or("none", String::as_str)),
+                    names(reports)
+                ));
+            }
+            continue;
+        }
         let outlook = Outlook {
             planned,
             number,
-            pilot: reports.as_ref().map(|reports| &reports[number]),
+            pilot: pilot.flatten(),
             drivers,
         };
         for wanted in wanted.iter().filter(|wanted| study.plan.scores(wanted)) {
@@ -79,27 +93,68 @@ fn points_of(report: &EvaluationReport, wanted: &WantedWidth) -> String {
     })
 }
 
-/// Results of `path`, one for each study of `planned`.
-fn reports(
-    path: &Path,
-    planned: &PlannedScene,
-    wanted: &[WantedWidth],
-) -> anyhow::Result<Vec<EvaluationReport>> {
-    let named = shown(path);
+/// Results of `path`.
+fn reports(path: &Path, wanted: &[WantedWidth]) -> anyhow::Result<Vec<EvaluationReport>> {
     if wanted.is_empty() {
         return Err(Usage::error(format!(
-            "--from {named}: the scene names no `want_width` under [metrics], so there is no width to predict"
+            "--from {}: the scene names no `want_width` under [metrics], so there is no width to predict",
+            shown(path)
         )));
     }
-    let reports = results::reports(path)?.reports;
-    let [found, expected] = [reports.len(), planned.studies.len()];
-    if found != expected {
+    Ok(results::reports(path)?.reports)
+}
+
+/// Result of the run `path` for each study of `planned`; `None` for a study without one.
+///
+/// A single result belongs to a single study, whatever their names: a run on the bench predicts a width on a rig.
+fn partners<'a>(
+    path: &Path,
+    planned: &PlannedScene,
+    reports: &'a [EvaluationReport],
+) -> anyhow::Result<Vec<Option<&'a EvaluationReport>>> {
+    if let ([_], [one]) = (&planned.studies[..], reports) {
+        return Ok(vec![Some(one)]);
+    }
+    let studies = planned.studies.iter();
+    let partners: Vec<_> = studies.map(|study| partner(study, reports)).collect();
+    let presses = |study: &PlannedStudy| tested(study).is_some();
+    if partners.iter().all(Option::is_none) && planned.studies.iter().any(presses) {
         return Err(Usage::error(format!(
-            "--from {named}: {}, and the scene has {expected}: expected a run of this scene, or of a pilot of it with fewer points",
-            counted(found, "sensor")
+            "--from {}: no result of a study of this scene, but of {}: expected a run of this scene, or of a pilot of it with fewer points",
+            shown(path),
+            names(reports)
         )));
     }
-    Ok(reports)
+    Ok(partners)
+}
+
+/// Result of the same sensor and the same first unit as `study`, on which its calibration presses are made. Stages of wear share both, in order.
+fn partner<'a>(
+    study: &PlannedStudy,
+    reports: &'a [EvaluationReport],
+) -> Option<&'a EvaluationReport> {
+    let plan = &study.plan;
+    let sensor = plan.wear.as_ref().map_or(&plan.name, |wear| &wear.sensor);
+    let stage = study.study.wear.as_ref().map_or(0, |stage| stage.number);
+    let unit = plan.units.first().map(String::as_str);
+    let mut same = reports.iter().filter(|report| {
+        let subject = &report.subject;
+        subject.sensor == *sensor && subject.serial.split(", ").next() == unit
+    });
+    same.nth(usize::try_from(stage).ok()?)
+}
+
+/// Sensors and units of `reports` in words.
+fn names(reports: &[EvaluationReport]) -> String {
+    let names = reports.iter().map(|report| {
+        let subject = &report.subject;
+        format!(
+            "`{}` on unit {}",
+            shown(&subject.sensor),
+            shown(&subject.serial)
+        )
+    });
+    names.collect::<Vec<_>>().join(", ")
 }
 
 /// Study whose widths are predicted.
@@ -148,7 +203,7 @@ impl Outlook<'_> {
                 scored.tested().points,
                 &format!("{} point", shown(&pilot.subject.source))
             ),
-            model_of(pilot)
+            model_of(pilot, &self.planned.studies[self.number])
         )
     }
 
@@ -217,10 +272,18 @@ fn tested(study: &PlannedStudy) -> Option<TestedPoints> {
     })
 }
 
-/// Model behind `report` in words.
-fn model_of(report: &EvaluationReport) -> String {
-    let model = report.provenance.model.as_ref();
-    model.map_or_else(String::new, |model| format!(" with {}", shown(&model.name)))
+/// Model behind `report` in words, beside another model that `study` names.
+fn model_of(report: &EvaluationReport, study: &PlannedStudy) -> String {
+    let Some(fitted) = &report.provenance.model else {
+        return String::new();
+    };
+    let named = study.study.model.as_ref();
+    let named = named.and_then(|model| Some(model.name.as_ref()?.value.as_str()));
+    let other = named.filter(|named| *named != fitted.name);
+    let other = other.map_or_else(String::new, |named| {
+        format!(", and the scene names {}", shown(named))
+    });
+    format!(" with {}{other}", shown(&fitted.name))
 }
 
 /// Width as a percentage.

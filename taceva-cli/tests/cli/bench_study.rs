@@ -1,5 +1,15 @@
 //! Studies of the simulated bench, compared by processor time and the widths of their intervals.
 
+use std::num::{NonZeroU32, NonZeroUsize};
+use std::path::PathBuf;
+
+use taceva_acquire::{SceneText, Surroundings, Workshop};
+use taceva_core::SilentProgress;
+use taceva_drivers::Drivers;
+use taceva_models::Models;
+use taceva_study::RunSetup;
+use taceva_study::bench::StudyGrid;
+
 use crate::run::SMALL;
 use crate::support::Bench;
 use crate::sweep_scenes::refused::{LAB, REAL};
@@ -71,6 +81,64 @@ fn repetitions_with_further_seeds_give_the_coverage_of_the_intervals() {
             .is_some_and(|head| head.contains("coverage Fxy")),
         "{csv}"
     );
+}
+
+#[test]
+fn every_model_is_scored_on_the_test_part_of_the_split_of_the_scene() {
+    let bench = with_small();
+    let scene = std::fs::read_to_string(bench.path("small.toml")).expect("written");
+    let own = "name = \"ridge\", ";
+    let split = "split = \"by-point 40/10/50\", ";
+    bench.write("small.toml", &scene.replace(own, &format!("{own}{split}")));
+    let words = "bench study small.toml --points 16 --folds none --models ridge,baseline";
+    let found = bench.json(words);
+    let rows = found["rows"].as_array().expect("rows");
+    let scored = rows.iter().map(|row| row["errors"][0]["n"].as_u64());
+    let scored: Vec<_> = scored.collect();
+    assert_eq!(scored[0], scored[1], "{found}");
+    // A tenth of 16 points would be too few for an interval.
+    for row in rows {
+        let clusters = row["clusters"].as_u64();
+        assert!(clusters.is_some_and(|points| points >= 7), "{row}");
+    }
+}
+
+#[test]
+fn a_further_seed_is_planned_only_when_its_turn_comes() {
+    // Plans of so many seeds would fill the memory.
+    let seeds = NonZeroU32::MAX;
+    let grid = StudyGrid {
+        study: None,
+        seed: Some(3),
+        seeds,
+        points: vec![16],
+        folds: vec![None],
+        models: vec!["ridge".to_owned()],
+    };
+    let scene = SceneText {
+        name: "small".to_owned(),
+        text: format!("{SMALL}metrics = {{ want = [\"mae\"] }}\n"),
+        folder: PathBuf::from("."),
+    };
+    let drivers = Drivers::builtin().expect("no two share a key");
+    let models = Models::builtin();
+    let setup = RunSetup {
+        workshop: Workshop {
+            drivers: &drivers,
+            surroundings: &|_, _| -> Option<Surroundings> { panic!("a plan opens no device") },
+            progress: &SilentProgress,
+            operator: None,
+            viewer: None,
+        },
+        models: &models,
+        cache: None,
+        jobs: NonZeroUsize::MIN,
+    };
+    let entries = grid.entries(&scene, setup).expect("a valid scene");
+    let [entry] = &entries[..] else {
+        panic!("{} combinations", entries.len());
+    };
+    assert_eq!((entry.scene.scene.seed, entry.seeds), (3, seeds));
 }
 
 #[test]

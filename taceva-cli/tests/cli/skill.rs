@@ -169,7 +169,7 @@ fn what_a_model_has_seen_shows_no_skill_on_others() {
     let text = bench.ok("evaluate data --model baseline --part all --metrics mae -q");
     for words in [
         "standing   not better than predicting the mean: ",
-        "remedy     More contact points, or a score of every point (--split cv:5), would narrow the interval.",
+        "remedy     More contact points, or a score of every point (--split cv:5), would narrow the interval of the score.",
     ] {
         assert!(text.contains(words), "{words}: {text}");
     }
@@ -180,7 +180,7 @@ fn a_cross_validation_is_not_asked_to_score_every_point() {
     let bench = Bench::new();
     bench.record("data", 32);
     let text = bench.ok("evaluate data --model baseline --split cv:5 --metrics mae -q");
-    let remedy = "remedy     More contact points would narrow the interval.\n";
+    let remedy = "remedy     More contact points would narrow the interval of the score.\n";
     assert!(text.contains(remedy), "{text}");
 }
 

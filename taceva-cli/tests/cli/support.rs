@@ -210,8 +210,20 @@ impl Bench {
 
     /// The same with its own noise, so that it shares no frame with those of another `noise` below 7.
     pub(crate) fn record_with_noise(&self, name: &str, side: u32, noise: u32) -> PathBuf {
+        self.record_as(name, side, noise, &spec())
+    }
+
+    /// The same by this `operator`.
+    pub(crate) fn record_by(&self, name: &str, side: u32, operator: &str) -> PathBuf {
+        let mut spec = spec();
+        let setting = ("operator".to_owned(), operator.to_owned());
+        spec.facts.settings.extend([setting]);
+        self.record_as(name, side, 0, &spec)
+    }
+
+    fn record_as(&self, name: &str, side: u32, noise: u32, spec: &RecordingSpec) -> PathBuf {
         let path = self.path(name);
-        let mut recorder = Recorder::create(&path, &spec()).expect("a new recording");
+        let mut recorder = Recorder::create(&path, spec).expect("a new recording");
         for number in 0..SAMPLES {
             let (place, force) = label(number);
             recorder

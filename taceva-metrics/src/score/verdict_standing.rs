@@ -141,16 +141,16 @@ impl Standing {
     /// use taceva_metrics::Standing;
     /// let steps = [false, true].map(|is_cross_validated| Standing::NoSkill.remedy(is_cross_validated));
     /// assert!(steps[0].is_some_and(|step| step.contains("--split cv:5")));
-    /// assert_eq!(steps[1], Some("More contact points would narrow the interval."));
+    /// assert_eq!(steps[1], Some("More contact points would narrow the interval of the score."));
     /// assert_eq!(Standing::Counts.remedy(false), None);
     /// ```
     pub fn remedy(self, is_cross_validated: bool) -> Option<&'static str> {
         match self {
             Standing::Counts | Standing::SkillUnknown => None,
             Standing::NoSkill | Standing::NotAboveConstant => Some(match is_cross_validated {
-                true => "More contact points would narrow the interval.",
+                true => "More contact points would narrow the interval of the score.",
                 false => {
-                    "More contact points, or a score of every point (--split cv:5), would narrow the interval."
+                    "More contact points, or a score of every point (--split cv:5), would narrow the interval of the score."
                 }
             }),
             Standing::NoInterval => Some(match is_cross_validated {
@@ -163,7 +163,7 @@ impl Standing {
                 }
             }),
             Standing::NotAboveNoiseFloor => {
-                Some("More presses at each place would narrow the interval.")
+                Some("More presses at each place would narrow the interval of the differences.")
             }
             Standing::Neighbours => Some(
                 "Leave --split out, in `taceva fit` too: the default keeps neighbours together.",
@@ -246,6 +246,23 @@ mod tests {
             let reason = standing.reason();
             assert!(reason.is_none_or(|reason| reason.starts_with(&format!("{phrase}: "))));
         }
+    }
+
+    #[test]
+    fn a_remedy_names_the_quantity_that_it_changes() {
+        for standing in Standing::ALL {
+            for remedy in
+                [false, true].map(|is_cross_validated| standing.remedy(is_cross_validated))
+            {
+                let words = remedy.unwrap_or_default();
+                assert!(!words.ends_with(" this."), "{words}");
+            }
+        }
+        let remedy = Standing::NoSkill.remedy(false).unwrap_or_default();
+        assert!(
+            remedy.ends_with("narrow the interval of the score."),
+            "{remedy}"
+        );
     }
 
     #[test]

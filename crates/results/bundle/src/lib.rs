@@ -22,6 +22,7 @@ mod make;
 mod manifest;
 mod model_card;
 mod name;
+mod operators;
 mod organization;
 mod origin;
 mod recomputation;

@@ -18,6 +18,7 @@ use crate::layout::{
     RESULTS, SAMPLES, is_own,
 };
 use crate::manifest::{BUNDLE_SCHEMA, Manifest, StudyFiles, badge_of, source_of};
+use crate::operators;
 use crate::redaction::{Redaction, redacted};
 use crate::request::BundleRequest;
 use crate::sample_digest::{SampleDigest, StudySamples};
@@ -244,9 +245,10 @@ fn sensors(inputs: &Inputs) -> String {
     distinct(names.map(|report| report.subject.sensor.as_str())).join(", ")
 }
 
-/// Remarks for the author of the bundle: its badge, its pictures, and words that redaction cannot change.
+/// Remarks for the author of the bundle: its badge, its operators, its pictures, and words that redaction cannot change.
 fn notes(inputs: &Inputs, request: &BundleRequest, written: &Writer<'_>) -> Vec<String> {
     let mut notes: Vec<String> = badge_of(&inputs.reports).into_iter().collect();
+    notes.extend(operators::note(inputs, written));
     let frames = written.files.iter().filter(|file| file.role == FRAMES_ROLE);
     let sizes: Vec<u64> = frames.map(|file| file.size).collect();
     if !sizes.is_empty() {

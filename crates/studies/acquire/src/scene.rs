@@ -232,7 +232,11 @@ impl Serialize for PlannedScene {
             .studies
             .iter()
             .find_map(|study| study.study.rig.as_ref());
-        let fields = 4 + 2 * usize::from(is_classified_otherwise) + usize::from(rig.is_some());
+        let operator = rig.and_then(|rig| rig.operator_name.as_ref());
+        let fields = 4
+            + 2 * usize::from(is_classified_otherwise)
+            + usize::from(rig.is_some())
+            + usize::from(operator.is_some());
         let mut scene = serializer.serialize_struct("PlannedScene", fields)?;
         scene.serialize_field("schema", "taceva.plans/1")?;
         scene.serialize_field("scene", &self.scene.name)?;
@@ -246,6 +250,10 @@ impl Serialize for PlannedScene {
         // A recording of one rig cannot be resumed on another rig.
         if let Some(rig) = rig {
             scene.serialize_field("rig", &rig.digest().to_string())?;
+        }
+        // A recording names one operator, which the digest alone does not show.
+        if let Some(operator) = operator {
+            scene.serialize_field("operator", operator)?;
         }
         scene.end()
     }

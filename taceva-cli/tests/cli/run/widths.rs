@@ -172,6 +172,41 @@ fn a_width_on_a_real_rig_is_predicted_and_nothing_is_pressed() {
 }
 
 #[test]
+fn the_results_of_a_run_belong_to_the_studies_of_the_same_name_and_unit_in_any_order() {
+    let bench = Bench::new();
+    let sensor = SMALL.lines().find(|line| line.starts_with("sensor"));
+    let sensor = sensor.expect("one");
+    let small = wanting("points = 16", "20 %").replace(sensor, "");
+    let [first, second] = ["vitactip", "magictac"].map(|model| {
+        format!(
+            "[[study]]\nname = \"{model}\"\nsensor = {{ driver = \"sim/{model}:reduction=16\", units = [\"0\", \"1\"] }}\n"
+        )
+    });
+    bench.write("two.toml", &format!("{small}{first}{second}"));
+    bench.ok("run two.toml --out r -q");
+    let expected = |scene: &str, name: &str| {
+        let said = planned(&bench, &format!("{scene} --from r"));
+        let start = format!("width: {name}: mae.Fz: ");
+        let (_, after) = said.split_once(&start).expect(&said);
+        let (percent, _) = after.split_once(" % expected").expect(&said);
+        percent.to_owned()
+    };
+    bench.write("turned.toml", &format!("{small}{second}{first}"));
+    let widths = ["vitactip", "magictac"].map(|name| expected("two.toml", name));
+    assert_ne!(widths[0], widths[1], "two sensors");
+    let turned = ["vitactip", "magictac"].map(|name| expected("turned.toml", name));
+    assert_eq!(turned, widths);
+    let other = second.replace("units = [\"0\"", "units = [\"2\"");
+    bench.write("other.toml", &format!("{small}{first}{other}"));
+    let said = planned(&bench, "other.toml --from r");
+    assert!(said.contains("width: vitactip: mae.Fz: "), "{said}");
+    assert!(
+        said.contains("width: magictac: not predicted, because the earlier run has no result of this study on unit 2: it has `vitactip` on unit 0, 1, `magictac` on unit 0, 1"),
+        "{said}"
+    );
+}
+
+#[test]
 fn results_of_other_studies_and_a_scene_without_a_wanted_width_are_refused() {
     let (bench, _, _) = with_pilot();
     bench.write("plain.toml", SMALL);
@@ -186,7 +221,7 @@ fn results_of_other_studies_and_a_scene_without_a_wanted_width_are_refused() {
     bench.refused(
         "plan two.toml --from r",
         2,
-        "--from r: 1 sensor, and the scene has 2: expected a run of this scene",
+        "--from r: no result of a study of this scene, but of `small` on unit 0, 1: expected a run of this scene",
     );
     let unread = bench.run("plan small.toml --from nowhere -q");
     assert_ne!(unread.code, 0);

@@ -13,10 +13,9 @@ use super::command::{Command, Mode, TargetState};
 use super::error::{failed, unanswered};
 use super::exchange::Exchange;
 use super::firmware::Firmware;
-use super::frame::Reply;
 use super::identity::settings;
 use super::limits::ArmLimits;
-use super::observe::{ANSWER, Observer, error_now};
+use super::observe::{ANSWER, Observer, error_now, state_now};
 use super::options::XarmOptions;
 use super::report::{ArmReport, pose_of};
 use super::stop::{Keeper, Place, Stop};
@@ -134,12 +133,12 @@ impl Arm {
                 .ask(command, ANSWER)
                 .map_err(unanswered(doing))?;
         }
-        let state = self
-            .exchange
-            .ask_for(Command::GetState, ANSWER, Reply::state)
-            .map_err(unanswered(doing))?;
-        if state > LAST_GOOD_STATE {
-            let why = format!("the controller does not become ready; it is still in state {state}");
+        let state = state_now(&mut self.exchange, ANSWER).map_err(unanswered(doing))?;
+        if state.0 > LAST_GOOD_STATE {
+            let why = format!(
+                "the controller does not become ready; it is still in state {}",
+                state.0
+            );
             return Err(failed(ErrorKind::DeviceFault, doing, why));
         }
         self.see_ready(mode)

@@ -8,7 +8,7 @@ use super::arm::Arm;
 use super::command::{Command, Mode, MoveVelocity};
 use super::error::{failed, unanswered};
 use super::motion::{BrokenOff, DOING, halted};
-use super::observe::ANSWER;
+use super::observe::{ANSWER, state_now};
 use super::report::pose_of;
 use crate::link::course::{Course, LINE, RENEWED};
 use crate::link::monotonic;
@@ -68,7 +68,7 @@ impl Arm {
                 return Err(fault.met(DOING).into());
             }
             if last.state.is_stopped() {
-                let now = self.state_now()?;
+                let now = state_now(&mut self.exchange, ANSWER).map_err(unanswered(DOING))?;
                 if now.is_stopped() {
                     return Err(self.not_ready(now));
                 }

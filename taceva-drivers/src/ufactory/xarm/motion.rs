@@ -7,8 +7,7 @@ use taceva_core::{Deadline, DriverError, ErrorKind, Pose, Speed, Stamp};
 use super::arm::Arm;
 use super::command::{Command, MoveLine};
 use super::error::{failed, unanswered};
-use super::frame::Reply;
-use super::observe::{ANSWER, Observation, STALE, error_now};
+use super::observe::{ANSWER, Observation, STALE, error_now, state_now};
 use super::report::{State, numbers_of, pose_of};
 use crate::link::monotonic;
 
@@ -126,7 +125,7 @@ impl Arm {
             .observer
             .observe(&mut self.exchange, None, patience.max(ANSWER))?;
         if !last.state.is_ready() {
-            let now = self.state_now()?;
+            let now = state_now(&mut self.exchange, ANSWER).map_err(unanswered(DOING))?;
             if !now.is_ready() {
                 return Err(self.not_ready(now));
             }
@@ -161,7 +160,7 @@ impl Arm {
             if last.state == State::MOVING {
                 has_moved = true;
             } else if !last.state.is_ready() {
-                let now = self.state_now()?;
+                let now = state_now(&mut self.exchange, ANSWER).map_err(unanswered(DOING))?;
                 if now.is_stopped() {
                     return Err(self.not_ready(now));
                 }
@@ -190,14 +189,6 @@ impl Arm {
             speed_mm_s: speed.mm_per_s() as f32,
             acceleration_mm_s2: self.options.acceleration_mm_s2 as f32,
         })
-    }
-
-    /// Queries the state. A late report may show a stop that has ended.
-    pub(super) fn state_now(&mut self) -> Result<State, DriverError> {
-        self.exchange
-            .ask_for(Command::GetState, ANSWER, Reply::state)
-            .map(State)
-            .map_err(unanswered(DOING))
     }
 
     /// Error for a controller in `state`, in which it does not move.

@@ -128,9 +128,7 @@ impl Observer {
         std::thread::sleep(ASKED_EVERY.saturating_sub(since).min(patience));
         // A caller past its deadline still gets an immediate answer.
         let patience = patience.clamp(GLANCE, ANSWER);
-        let state = exchange
-            .ask_for(Command::GetState, patience, Reply::state)
-            .map_err(refused)?;
+        let state = state_now(exchange, patience).map_err(refused)?;
         let queued = exchange
             .ask_for(Command::GetQueued, patience, Reply::queued)
             .map_err(refused)?;
@@ -139,7 +137,7 @@ impl Observer {
             .map_err(refused)?;
         self.asked = monotonic();
         Ok(Observation {
-            state: State(state),
+            state,
             queued,
             pose,
             at: self.asked,
@@ -180,6 +178,15 @@ impl Observer {
 
 /// Mask of the joints that every arm of the family has.
 const FIRST_JOINTS: u8 = 0b1_1111;
+
+/// Queries the state. A late report may show a stop that has ended.
+pub(super) fn state_now(
+    exchange: &mut Exchange,
+    patience: Duration,
+) -> Result<State, ExchangeError> {
+    let state = exchange.ask_for(Command::GetState, patience, Reply::state)?;
+    Ok(State(state))
+}
 
 /// Queries the current error of the controller.
 pub(super) fn error_now(exchange: &mut Exchange) -> Result<Option<XarmFault>, ExchangeError> {

@@ -14,6 +14,7 @@ use crate::compare::{CompareRequest, QUESTIONS};
 use crate::names::listed;
 use crate::results::Study;
 use crate::table::{Align, Cell, Column, Estimate, Table, Words};
+use taceva_results::full_name;
 
 /// Text for a number or fact that an entry of the catalogue lacks.
 const NOT_THERE: &str = "not in the catalogue";
@@ -58,8 +59,8 @@ struct Notes(Vec<Note>);
 impl ScoreTable {
     /// Values of `studies` side by side: one row for each score or published fact, one column for each study.
     ///
-    /// The rows are the main scores and the scores of the first questions; with `is_all`, all scores without variants. If `request` names metrics,
-    /// the rows are their scores. A short word replaces an absent value, and a note states the reason.
+    /// The rows are the main scores and the scores of the first questions; with `is_all`, all scores. If `request` names metrics, the rows are their
+    /// scores. Of the variants, only those that answers compare have a row. A short word replaces an absent value, and a note states the reason.
     ///
     /// ```
     /// use taceva_report::{CompareRequest, ScoreTable, catalogue};
@@ -125,15 +126,25 @@ impl ScoreTable {
     /// Rows that `request` selects.
     fn asked(&self, request: &CompareRequest, is_all: bool) -> ScoreTable {
         let headlines = self.headlines();
-        if is_all || !request.metrics.is_empty() {
-            return headlines;
-        }
-        let rows = headlines.rows.iter().filter(|row| is_asked_first(row));
-        let rows: Vec<ScoreRow> = rows.cloned().collect();
-        match rows.is_empty() {
-            true => headlines,
-            false => ScoreTable { rows, ..headlines },
-        }
+        let is_any = is_all || !request.metrics.is_empty();
+        let is_first = !is_any && headlines.rows.iter().any(is_asked_first);
+        let rows = headlines.rows.iter();
+        let rows = rows.filter(|row| !is_first || is_asked_first(row));
+        let rows = rows.flat_map(|row| [Some(row), self.compared_row(row)]);
+        let rows = rows.flatten().cloned().collect();
+        ScoreTable { rows, ..headlines }
+    }
+
+    /// Row of the variant that answers compare in place of `row`; `None` if they compare `row` itself.
+    fn compared_row(&self, row: &ScoreRow) -> Option<&ScoreRow> {
+        let mut answers = self.answers.iter();
+        let variant = answers.find_map(|answer| {
+            let is_of_row = answer.metric == row.metric && answer.channel == row.channel;
+            answer.decided_by.as_deref().filter(|_| is_of_row)
+        })?;
+        let name = full_name(&row.metric, Some(variant));
+        let mut rows = self.rows.iter();
+        rows.find(|own| own.metric == name && own.channel == row.channel)
     }
 
     /// Line of a score, with notes on the marks of its values.
@@ -304,7 +315,8 @@ fn absence(study: &Study, row: Option<&ScoreRow>, at: usize) -> (&'static str, S
             _ => ("in JSON", reason.to_owned()),
         };
     }
-    let what = format!("metric:{}", row.metric);
+    let metric = row.metric.split('.').next().unwrap_or_default();
+    let what = format!("metric:{metric}");
     let skip = study.skipped.iter().find(|skip| skip.what == what);
     if let Some(skip) = skip {
         return ("skipped", skip.reason.clone());

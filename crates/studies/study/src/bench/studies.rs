@@ -109,7 +109,8 @@ impl StudyTrial {
     }
 }
 
-/// Runs the study of each of `entries` with each of its seeds, without a cache. Each run replaces the run in the folder at `folder`.
+/// Runs the study of each of `entries` with each of its seeds, without a cache. A seed is planned right before its presses. Each run replaces the run
+/// in the folder at `folder`.
 ///
 /// A model that cannot be fitted becomes a row with the reason.
 ///
@@ -135,22 +136,23 @@ pub fn studies(
         cache: None,
         ..setup
     };
-    let seeds = first.scenes.len();
-    let steps: u64 = entries.iter().map(|entry| entry.variant.steps()).sum();
-    let steps = steps * seeds as u64;
-    progress.begin("points fitted", Some(steps));
+    let steps = entries
+        .iter()
+        .map(|entry| entry.variant.steps() * u64::from(entry.seeds.get()));
+    progress.begin("points fitted", Some(steps.sum()));
     let mut rows = Vec::with_capacity(entries.len());
     for entry in entries {
-        let mut repetitions = Vec::with_capacity(seeds);
-        for scene in &entry.scenes {
-            repetitions.push(repetition(scene, folder, setup)?);
+        let mut repetitions = Vec::new();
+        for further in 0..entry.seeds.get() {
+            let scene = entry.repeated(further, setup)?;
+            repetitions.push(repetition(&scene, folder, setup)?);
             progress.advance(entry.variant.steps());
         }
         rows.push(trial(entry.variant.clone(), repetitions));
     }
     progress.end();
     mark(&mut rows);
-    let scene = &first.scenes[0];
+    let scene = &first.scene;
     Ok(StudyBench {
         schema: BENCH_SCHEMA,
         subject: "study",
@@ -158,7 +160,7 @@ pub fn studies(
         scene: scene.scene.name.clone(),
         study: scene.studies[0].plan.name.clone(),
         seed: scene.scene.seed,
-        seeds: u32::try_from(seeds).unwrap_or(u32::MAX),
+        seeds: first.seeds.get(),
         rows,
     })
 }

@@ -30,7 +30,7 @@ pub struct StudyGrid {
     pub points: Vec<u32>,
     /// Numbers of folds; `None` for one test part.
     pub folds: Vec<Option<u32>>,
-    /// Names of models. The scene's settings apply to its own model, and default settings to other models.
+    /// Names of models. The scene's settings apply to its own model, and default settings to others. Its split applies to all.
     pub models: Vec<String>,
 }
 
@@ -50,12 +50,14 @@ pub struct StudyVariant {
 pub struct StudyEntry {
     /// The combination.
     pub variant: StudyVariant,
-    /// Scene with one study, for each seed; never empty.
-    pub scenes: Vec<PlannedScene>,
+    /// Scene with one study and the seed of the first repetition.
+    pub scene: PlannedScene,
+    /// Number of repetitions, with consecutive seeds.
+    pub seeds: NonZeroU32,
 }
 
 impl StudyGrid {
-    /// Plans the scene in `text` with each combination and seed, models within folds within points.
+    /// Plans the scene in `text` with each combination and the first seed, models within folds within points.
     ///
     /// # Errors
     /// [`StudyError`] for an invalid scene or combination, or an unknown study or model. Also for a scene that does not press on the simulated bench.
@@ -88,13 +90,12 @@ impl StudyGrid {
                         model: model.clone(),
                     };
                     let text = variant.applied_to(text, study);
-                    let seeds = 0..u64::from(self.seeds.get());
-                    let scenes = seeds.map(|further| {
-                        let seed = whole.scene.seed.wrapping_add(further);
-                        planned(text.clone(), setup, Some(seed)).map_err(unplaced)
+                    let scene = planned(text, setup, Some(whole.scene.seed));
+                    entries.push(StudyEntry {
+                        variant,
+                        scene: scene.map_err(unplaced)?,
+                        seeds: self.seeds,
                     });
-                    let scenes = scenes.collect::<Result<_, _>>()?;
-                    entries.push(StudyEntry { variant, scenes });
                 }
             }
         }
@@ -119,6 +120,18 @@ impl StudyGrid {
                 suggestion(study, &names)
             )))
         })
+    }
+}
+
+impl StudyEntry {
+    /// Scene of repetition number `further`, counted from 0, with a seed of its own.
+    pub(super) fn repeated(
+        &self,
+        further: u32,
+        setup: RunSetup<'_>,
+    ) -> Result<PlannedScene, StudyError> {
+        let seed = self.scene.scene.seed.wrapping_add(u64::from(further));
+        planned(self.scene.text.clone(), setup, Some(seed)).map_err(unplaced)
     }
 }
 
@@ -164,11 +177,14 @@ impl StudyVariant {
                 .find_map(|one| one.as_table_mut()?.remove("model"));
         }
         let own = own.or(scene.remove("model"));
+        let split = own.as_ref().and_then(|own| own.get("split")).cloned();
         let mut model = match own.filter(|own| named(own, &self.model)) {
             Some(Value::Table(own)) => own,
             _ => Table::from_iter([("name".to_owned(), Value::String(self.model.clone()))]),
         };
         model.remove("folds");
+        // A split divides the points, whatever the model.
+        model.extend(split.map(|split| ("split".to_owned(), split)));
         if let Some(folds) = self.folds {
             model.remove("split");
             model.insert("folds".to_owned(), Value::Integer(i64::from(folds)));

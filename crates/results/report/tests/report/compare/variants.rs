@@ -1,7 +1,7 @@
 //! Tests of metrics whose comparison uses a variant instead of the value.
 
 use super::{of_metric, score, study};
-use taceva_report::{CompareRequest, Study, compare};
+use taceva_report::{CompareRequest, ScoreTable, Study, compare};
 
 /// A study of one score of Fz whose variant `name` has another value and interval.
 pub(super) fn with_variant(
@@ -42,6 +42,28 @@ fn equal_sensors_that_were_pressed_twice_and_ten_times_have_no_winner() {
     }
     let comparison = of_metric(&without, "repeatability");
     assert_eq!(comparison.decisions()[0].winner, Some(0));
+}
+
+#[test]
+fn the_values_side_by_side_have_a_row_of_the_variant_that_the_answers_compare() {
+    let studies = [
+        with_variant("Twice", "repeatability", 0.0807, "pooled", 0.1004),
+        with_variant("Ten", "repeatability", 0.0980, "pooled", 0.0996),
+    ];
+    let request = CompareRequest {
+        metrics: vec!["repeatability".to_owned()],
+        ..CompareRequest::default()
+    };
+    let table = ScoreTable::compared(&studies, &request);
+    let table = table.side_by_side(&studies, &request, false);
+    let rows = table.rows.iter().map(|row| row.plain());
+    let rows: Vec<_> = rows
+        .filter(|row| row[0].starts_with("repeatability"))
+        .collect();
+    let names: Vec<&str> = rows.iter().map(|row| row[0].as_str()).collect();
+    let expected = ["repeatability Fz (N) ↓", "repeatability.pooled Fz (N) ↓"];
+    assert_eq!(names, expected);
+    assert!(rows[1][1].starts_with("0.10"), "{:?}", rows[1]);
 }
 
 #[test]

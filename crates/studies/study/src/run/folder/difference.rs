@@ -65,14 +65,25 @@ fn of_values(path: &str, before: &Value, now: &Value) -> Option<String> {
             now.len()
         )),
         (before, now) if before == now => None,
-        // The plan has the digest of the rig file alone.
+        // The plan has the digest of the rig file, and its operator.
         _ if path == "rig" => Some("the rig file changed".to_owned()),
+        (before, now) if path == "operator" => Some(format!(
+            "the operator was {} and is now {} (`name` under [operator] of the rig file)",
+            person(before),
+            person(now)
+        )),
         (before, now) => Some(format!(
             "{path} was {} and is now {}",
             shortened(&before.to_string()),
             shortened(&now.to_string())
         )),
     }
+}
+
+/// Name of an operator in words.
+fn person(name: &Value) -> String {
+    let name = name.as_str().map(|name| format!("`{}`", shortened(name)));
+    name.unwrap_or_else(|| "not named".to_owned())
 }
 
 fn shortened(text: &str) -> String {
@@ -101,6 +112,21 @@ mod tests {
         assert_eq!(
             of_scenes(scene, "name = \"a\"\n").as_deref(),
             Some("line 2 of the scene was `[limits]` and is now missing")
+        );
+    }
+
+    #[test]
+    fn another_operator_is_named_before_the_rig_file_that_names_both() {
+        let before = r#"{"rig": "sha256:1", "operator": "Ada"}"#;
+        let found = |now: &str| of_plans(before, now).unwrap_or_default();
+        assert_eq!(
+            found(r#"{"rig": "sha256:2", "operator": "Grace"}"#),
+            "the operator was `Ada` and is now `Grace` (`name` under [operator] of the rig file)"
+        );
+        let nobody = found(r#"{"rig": "sha256:2"}"#);
+        assert!(
+            nobody.contains("was `Ada` and is now not named"),
+            "{nobody}"
         );
     }
 

@@ -8,10 +8,10 @@ use taceva_acquire::AcquireError;
 use taceva_core::{Progress, SilentProgress};
 use taceva_dataset::Source;
 use taceva_protocol::{Answer, Cancel, Operator, Question, StopCause};
-use taceva_study::StudyError;
+use taceva_study::{Existing, RunFolder, StudyError};
 
 use crate::waiting::world::World;
-use crate::waiting::{SCENE, record_on};
+use crate::waiting::{SCENE, record_on, with_workshop};
 
 /// Rig file of a world whose transducer has the axes `force_axes`.
 pub(crate) fn rig_file(folder: &Path, force_axes: &str) -> PathBuf {
@@ -215,6 +215,32 @@ fn ctrl_c_at_any_moment_leaves_the_tip_above_the_gel_and_no_press_is_lost_or_dou
     names.sort();
     names.dedup();
     assert_eq!(names.len(), 6);
+}
+
+#[test]
+fn a_run_that_another_operator_resumes_is_refused_with_both_names_and_the_remedy() {
+    let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
+    let rig = rig_file(folder.path(), UPRIGHT);
+    let devices = std::fs::read_to_string(&rig).expect("written");
+    let (run, pressed) = (folder.path().join("run"), scene());
+    let opened = |name: &str, existing: Existing| {
+        let text = format!("{devices}[operator]\nname = \"{name}\"\n");
+        std::fs::write(&rig, text).expect("written");
+        let on = (pressed.as_str(), Some(rig.as_path()), None);
+        with_workshop(&world, &SilentProgress, on, |planned, _| {
+            RunFolder::open(&run, planned, existing)
+        })
+    };
+    opened("Ada", Existing::Refuse).expect("a new run");
+    opened("Ada", Existing::Resume).expect("the same person");
+    let refused = opened("Grace", Existing::Resume).expect_err("another person");
+    let said = refused.to_string();
+    for words in [
+        "the operator was `Ada` and is now `Grace` (`name` under [operator] of the rig file)",
+        "undo this change and use --resume, or choose another folder",
+    ] {
+        assert!(said.contains(words), "{said}");
+    }
 }
 
 /// Operator who never answers, and waits until the run is cancelled.
