@@ -1,6 +1,6 @@
 //! Choice of samples and faults, checked before any picture is read.
 
-use taceva_core::{Frame, counted, shown};
+use taceva_core::{Frame, counted, shown, suggestion};
 use taceva_dataset::Dataset;
 use taceva_evaluate::{DataPart, EvaluateError, Plan, Target, subject_of};
 use taceva_models::{MarkerTracker, Model};
@@ -25,6 +25,18 @@ const NO_CONTACT: &str = "the change by contact is unknown: expected rows withou
 /// Minimum number of markers for their loss. Fewer spots would fit into any grid.
 const LEAST_MARKERS: usize = 9;
 
+/// Metrics of cells, of which every cell has the first two. All are sums over samples, so a sample may have several draws.
+const METRICS: [&str; 8] = [
+    "mae",
+    "skill",
+    "rmse",
+    "bias",
+    "r2",
+    "smape",
+    "smape_gated",
+    "mae_euclid",
+];
+
 /// Choice of faults and samples.
 #[derive(Clone, Debug)]
 pub struct StressRequest {
@@ -43,6 +55,8 @@ pub struct StressRequest {
     /// True to leave out the severities of a fault of pictures or signals above the first at which no channel has skill. Each severity then decodes the scored
     /// pictures.
     pub stops_at_no_skill: bool,
+    /// Metrics of each cell beside mean absolute error and skill.
+    pub metrics: Vec<String>,
 }
 
 impl Default for StressRequest {
@@ -55,6 +69,7 @@ impl Default for StressRequest {
             draws: 1,
             part: None,
             stops_at_no_skill: false,
+            metrics: Vec::new(),
         }
     }
 }
@@ -68,7 +83,7 @@ pub fn usual_list(model: &Model) -> &'static str {
 }
 
 impl StressRequest {
-    /// The requested faults. Rejects invalid severities and draws, and an empty list of faults unless `has_others`.
+    /// The requested faults. Rejects invalid severities, draws and metrics, and an empty list of faults unless `has_others`.
     fn checked(&self, has_others: bool) -> Result<Vec<&'static Fault>, EvaluateError> {
         let refused = |words: &str| Err(EvaluateError::Request(words.to_owned()));
         let chosen = match self.faults.is_empty() && has_others {
@@ -84,6 +99,14 @@ impl StressRequest {
         }
         if self.draws == 0 {
             return refused("draws: found 0, expected at least 1");
+        }
+        let mut metrics = self.metrics.iter().map(String::as_str);
+        if let Some(unknown) = metrics.find(|name| !METRICS.contains(name)) {
+            return refused(&format!(
+                "metric `{}`: not a metric of cells, {}",
+                shown(unknown),
+                suggestion(unknown, &METRICS)
+            ));
         }
         Ok(chosen)
     }
@@ -344,7 +367,11 @@ pub fn stress_plan(
             )
         ),
     );
-    plan.step("score", "mae, skill");
+    let is_asked = |name: &&str| request.metrics.iter().any(|asked| asked == name);
+    let metrics = METRICS.into_iter();
+    let metrics = metrics.filter(|name| METRICS[..2].contains(name) || is_asked(name));
+    let metrics: Vec<&str> = metrics.collect();
+    plan.step("score", metrics.join(", "));
     let subject = subject_of(dataset);
     if let Some(words) = not_measured([subject.source.as_str()]) {
         plan.step("note", words);

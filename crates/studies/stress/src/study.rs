@@ -105,7 +105,14 @@ fn measure(
     let shares = shares(dataset, &setup.samples.rows);
     let shares = shares.unwrap_or_else(|| vec![1.0; dataset.table().rows()]);
     let rows = &setup.samples.rows;
-    let scorer = Scorer::new(dataset, model, &setup.samples.target, rows, work.jobs)?;
+    let scorer = Scorer::new(
+        dataset,
+        model,
+        &setup.samples.target,
+        rows,
+        &request.metrics,
+        work.jobs,
+    )?;
     let pictures = Pictures {
         dataset,
         model,
