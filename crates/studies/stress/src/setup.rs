@@ -1,7 +1,7 @@
 //! Choice of samples and faults, checked before any picture is read.
 
 use taceva_core::{Frame, counted, shown, suggestion};
-use taceva_dataset::Dataset;
+use taceva_dataset::{Dataset, Leds};
 use taceva_evaluate::{DataPart, EvaluateError, Plan, Target, subject_of};
 use taceva_models::{MarkerTracker, Model};
 use taceva_results::not_measured;
@@ -124,6 +124,8 @@ pub(crate) struct Setup {
     /// Faults that leave rows out.
     pub(crate) of_rows: Vec<&'static Fault>,
     pub(crate) skipped: Vec<SkippedFault>,
+    /// Sides of the LEDs of the sensor.
+    pub(crate) leds: Leds,
 }
 
 impl Setup {
@@ -160,6 +162,10 @@ impl Setup {
     ) -> Result<Setup, EvaluateError> {
         let is_timed = shares(dataset, &samples.rows).is_some();
         let is_stream = chosen.iter().any(|fault| fault.is_of_rows()) && is_stream(dataset)?;
+        let header = dataset.header();
+        let leds = header.sensor.leds;
+        let frames = header.frames.as_ref();
+        let is_gray = frames.is_some_and(|frames| frames.info.format.samples() == 1);
         let lacks = |fault: &'static Fault| -> Option<&'static str> {
             if fault.is_of_pictures() && reads_signals(model) {
                 return Some(OF_PICTURES);
@@ -174,6 +180,9 @@ impl Setup {
                 return Some(
                     "no metric of time: expected the times `t_s` of a stream, at most 1 s apart",
                 );
+            }
+            if fault.is_of_leds() && !leds.is_unknown() && is_gray {
+                return Some("`leds` in [sensor] names colours, and the pictures are gray");
             }
             let is_alone = samples.rows.len() == 1;
             if is_alone && Stress::new(fault, 0.0, 0).repeats() {
@@ -204,6 +213,7 @@ impl Setup {
             faults: of_kind(Fault::is_of_pictures),
             samples,
             skipped,
+            leds,
         })
     }
 
