@@ -62,10 +62,7 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
             StressPart::All => DataPart::All,
         }),
         stops_at_no_skill: args.stop_at_no_skill,
-        metrics: {
-            let names = args.metrics.iter();
-            names.map(|name| name.trim().to_owned()).collect()
-        },
+        metrics: args.metrics.clone(),
     };
     let models = context.models()?;
     let model = models.open(&args.model)?;

@@ -99,8 +99,8 @@ pub struct CleanScore {
     /// Skill over a constant prediction.
     pub skill: Estimate,
     /// Metrics on request, by name.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    pub metrics: BTreeMap<&'static str, Estimate>,
+    #[serde(skip_serializing_if = "ByChannel::is_empty")]
+    pub metrics: ByChannel<Estimate>,
     /// Mean absolute error of the constant prediction; `None` if unknown.
     pub constant: Option<f64>,
 }
@@ -113,8 +113,8 @@ pub struct CellScore {
     /// Skill over a constant prediction.
     pub skill: Estimate,
     /// Metrics on request, by name.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    pub metrics: BTreeMap<&'static str, Estimate>,
+    #[serde(skip_serializing_if = "ByChannel::is_empty")]
+    pub metrics: ByChannel<Estimate>,
     /// Error divided by the error without the fault.
     pub degradation: Estimate,
     /// The smaller one of the error and the error of the constant prediction; `None` if one of them is unknown.

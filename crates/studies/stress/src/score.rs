@@ -360,10 +360,11 @@ impl Scored {
         known.unwrap_or(Estimate::undefined(Undefined::Empty))
     }
 
-    fn metrics_of(&self, name: &str) -> BTreeMap<&'static str, Estimate> {
+    /// Metrics on request of a channel, by their names.
+    fn metrics_of(&self, name: &str) -> ByChannel<Estimate> {
         let all = self.others.iter();
-        all.filter_map(|(id, of)| Some((*id, *of.get(name)?)))
-            .collect()
+        let known = all.filter_map(|(id, of)| Some(((*id).to_owned(), *of.get(name)?)));
+        known.collect()
     }
 }
 

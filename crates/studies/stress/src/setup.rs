@@ -162,9 +162,8 @@ impl Setup {
     ) -> Result<Setup, EvaluateError> {
         let is_timed = shares(dataset, &samples.rows).is_some();
         let is_stream = chosen.iter().any(|fault| fault.is_of_rows()) && is_stream(dataset)?;
-        let header = dataset.header();
-        let leds = header.sensor.leds;
-        let frames = header.frames.as_ref();
+        let leds = dataset.header().sensor.leds;
+        let frames = dataset.header().frames.as_ref();
         let is_gray = frames.is_some_and(|frames| frames.info.format.samples() == 1);
         let lacks = |fault: &'static Fault| -> Option<&'static str> {
             if fault.is_of_pictures() && reads_signals(model) {

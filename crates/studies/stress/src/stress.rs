@@ -108,11 +108,8 @@ impl<'m> Stress<'m> {
             }
             Effect::Leds(change) => {
                 let mut canvas = Canvas::of(frame);
-                let leds = match canvas.colours() {
-                    1 => Leds::default(),
-                    _ => self.leds,
-                };
-                change(&mut canvas, &self.drawn(sample), leds);
+                let leds = Some(self.leds).filter(|_| canvas.colours() > 1);
+                change(&mut canvas, &self.drawn(sample), leds.unwrap_or_default());
                 canvas.into_frame()
             }
             Effect::Markers(change) => match self.markers_of(frame) {

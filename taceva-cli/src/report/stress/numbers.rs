@@ -1,7 +1,5 @@
 //! Table of every number of a stress test, for programs.
 
-use std::collections::BTreeMap;
-
 use taceva_metrics::{ScoreUnit, catalogue};
 use taceva_report::{Cell, Table};
 use taceva_stress::{
@@ -187,12 +185,7 @@ impl<'a> Rows<'a> {
         self.push_words(place, channel, "difference_p", of.p, reason);
     }
 
-    fn push_metrics(
-        &mut self,
-        place: &Place<'_>,
-        channel: &str,
-        metrics: &BTreeMap<&'static str, Estimate>,
-    ) {
+    fn push_metrics(&mut self, place: &Place<'_>, channel: &str, metrics: &ByChannel<Estimate>) {
         for (metric, of) in metrics {
             let unit = match catalogue::find(metric).map(|metric| metric.unit) {
                 Some(ScoreUnit::OfChannel) => self.unit(channel),

@@ -54,7 +54,7 @@ pub(super) fn missed_targets(report: &StressReport) -> Option<String> {
 /// Remark on the metrics on request, which are too many for a table of readers; `None` without any.
 pub(super) fn other_metrics(report: &StressReport) -> Option<String> {
     let names = report.clean.values().flat_map(|of| of.metrics.keys());
-    let names: BTreeSet<&str> = names.copied().collect();
+    let names: BTreeSet<&str> = names.map(String::as_str).collect();
     let names: Vec<&str> = names.into_iter().collect();
     let words = "of each channel, fault and severity: in --format csv and json";
     (!names.is_empty()).then(|| format!("{} {words}.", names.join(", ")))

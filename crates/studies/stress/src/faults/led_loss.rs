@@ -31,11 +31,9 @@ fn apply(canvas: &mut Canvas, drawn: &Realisation, leds: Leds) {
                 Some(PictureSide::Bottom) => [bottom - y, bottom],
             };
             let kept = 1.0 - drawn.parameter * (1.0 - place as f32 / steps.max(1) as f32);
-            let dimmed = pixel
-                .iter_mut()
-                .zip(is_lost)
-                .filter(|(_, is_lost)| *is_lost);
-            dimmed.for_each(|(value, _)| *value *= kept);
+            for (value, _) in pixel.iter_mut().zip(is_lost).filter(|(_, lost)| *lost) {
+                *value *= kept;
+            }
         }
     }
 }
@@ -45,15 +43,10 @@ fn lost_side(leds: Leds) -> Option<PictureSide> {
     leds.sides().into_iter().flatten().min()
 }
 
-/// Remark on the colours that dim; `None` if no side is known.
+/// Remark on the side whose LEDs dim; `None` if no side is known.
 pub(crate) fn note_on(leds: Leds) -> Option<String> {
-    let lost = lost_side(leds)?;
-    let colours = ["red", "green", "blue"].into_iter().zip(leds.sides());
-    let dimmed = colours.filter(|(_, side)| *side == Some(lost));
-    let dimmed: Vec<&str> = dimmed.map(|(colour, _)| colour).collect();
-    let side = format!("{lost:?}").to_lowercase();
+    let side = format!("{:?}", lost_side(leds)?).to_lowercase();
     Some(format!(
-        "only {} dims, from the {side} edge, because `leds` in [sensor] of the recording places its LEDs there",
-        dimmed.join(" and ")
+        "only the colours that `leds` in [sensor] of the recording states for the {side} side dim, from that side"
     ))
 }

@@ -1,14 +1,13 @@
 //! Errors of models with faults.
 
-use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 
 use taceva_core::{Channel, Channels, Clock, PixelFormat, Readings, Sample, counted};
 use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 use taceva_evaluate::{EvaluateRequest, ModelChoice, Work, evaluate};
 use taceva_stress::{
-    By, Estimate, FaultReport, NEVER, StressReport, StressRequest, Undefined, Unnoticed, stress,
-    stress_plan,
+    By, ByChannel, Estimate, FaultReport, NEVER, StressReport, StressRequest, Undefined, Unnoticed,
+    stress, stress_plan,
 };
 
 use crate::drawing::{
@@ -152,8 +151,8 @@ fn metrics_on_request_stand_in_every_cell_and_change_no_other_number() {
     };
     let tested = |request: &StressRequest| stress(&dataset, &model, request, WORK).expect("tested");
     let mut report = tested(&asked);
-    let check = |metrics: &BTreeMap<&'static str, Estimate>, mae: Estimate| {
-        let names: Vec<&str> = metrics.keys().copied().collect();
+    let check = |metrics: &ByChannel<Estimate>, mae: Estimate| {
+        let names: Vec<&String> = metrics.keys().collect();
         assert_eq!(names, ["r2", "rmse"]);
         let value = |name: &str| metrics[name].value.expect("a score");
         // The variance of the forces, twelve of each of 0.4, 0.8, 1.2, 1.6 and 2.0 N, is 0.32.
