@@ -5,8 +5,9 @@
 
 Each seed acquires the default study, fits `ridge` and `cnn` on the training part of each sensor and scores the test part by `taceva stress`.
 A cell has the degradation of Fz at severities 1, 3 and 5: the geometric mean over seeds. `–` is a severity that no parameter of the fault reaches.
-Nothing but the standard library is needed. The last lines count ordered stimuli and degradations, name faults that `check` does not notice, each with the
-recordings and the greatest stimulus of these, and state the processor time of a sensor.
+Nothing but the standard library is needed. The last lines count ordered stimuli and degradations, for all cells and for each fault with an exception. They
+name the faults that `check` does not notice by model, each with the number of recordings and the greatest stimulus of these. The processor time of a sensor
+goes to standard error.
 """
 
 import json
@@ -69,10 +70,20 @@ def short(value):
     return f"{value:.0f}" if value >= 9.95 else f"{value:.1f}"
 
 
+def counts(pairs):
+    """Number of true pairs, for all faults and for each fault with a false one."""
+    whole = [pair for of in pairs.values() for pair in of]
+    partial = [f"`{fault}` {sum(of)} of {len(of)}" for fault, of in pairs.items() if not all(of)]
+    share = f"{sum(whole)} of {len(whole)} ({100 * sum(whole) / max(len(whole), 1):.1f} %)"
+    return share + (f"; {', '.join(partial)}" if partial else "")
+
+
 def main():
     seeds = range(1, (int(sys.argv[1]) if len(sys.argv) > 1 else 5) + 1)
     cells, recovered, sensors, faults, seconds = {}, {}, [], {}, []
-    stimuli, ordered, degradations, growing, unnoticed = 0, 0, 0, 0, {model: {} for model in MODELS}
+    unnoticed = {model: {} for model in MODELS}
+    # By fault, for each compared pair of severities: True if the higher one has the greater number.
+    ordered, growing = {}, {}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for seed in seeds:
@@ -96,13 +107,13 @@ def main():
                             before = of.get(at - 1)
                             if before is None:
                                 continue
-                            stimuli += 1
-                            ordered += severity["stimulus"] > before["stimulus"]
+                            is_ordered = severity["stimulus"] > before["stimulus"]
+                            ordered.setdefault(fault["id"], []).append(is_ordered)
                             earlier = degradation(before)
                             if found and earlier:
-                                degradations += 1
                                 # Within intervals: the upper end is not below the value of before.
-                                growing += found[1] is None or found[1][1] >= earlier[0]
+                                is_growing = found[1] is None or found[1][1] >= earlier[0]
+                                growing.setdefault(fault["id"], []).append(is_growing)
                         share = (fault["recovers"] or {}).get(CHANNEL, {}).get("value")
                         if share is not None:
                             recovered.setdefault(key, []).append(share)
@@ -129,14 +140,16 @@ def main():
                 row.append(cell)
             print(f"| `{fault}` | {' | '.join(row)} |")
         print()
-    above = f"Stimulus greater than at the next lower severity: {ordered} of {stimuli}."
-    print(f"{above} Degradation not smaller than there, within intervals: {growing} of {degradations}.")
+    above = f"Stimulus greater than at the next lower severity: {counts(ordered)}."
+    print(f"{above} Degradation not smaller than there, within intervals: {counts(growing)}.")
+    print()
     count = len(seconds) // len(MODELS)
-    print(f"Faults that double the error of {CHANNEL} while check finds nothing, with the number of recordings of {count} and the greatest stimulus:")
+    print(f"Faults that double the error of {CHANNEL} while check finds nothing, with the number of such recordings of {count} and the greatest stimulus:")
+    print()
     for model in MODELS:
         found = sorted(unnoticed[model].items())
-        words = [f"{fault} ({len({at for _, at in of})}, {max(of)[0]:.2g})" for fault, of in found]
-        print(f"{model}: {', '.join(words) or 'none'}.")
+        words = [f"`{fault}` ({len({at for _, at in of})}, {max(of)[0]:.2g})" for fault, of in found]
+        print(f"- {model}: {', '.join(words) or 'none'}.")
     print(f"Processor time of all faults and severities, a sensor: {statistics.median(seconds):.1f} s, at most {max(seconds):.1f} s.", file=sys.stderr)
 
 

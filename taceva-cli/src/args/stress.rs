@@ -45,6 +45,9 @@ pub(crate) struct Stress {
     /// The samples on which the model is scored [default: test, or all if the model was fitted on another recording]
     #[arg(long, value_enum)]
     pub(crate) part: Option<StressPart>,
+    /// Metrics of each cell beside mae and skill, separated by commas: rmse, bias, r2, smape, smape_gated, mae_euclid
+    #[arg(long, value_name = "METRICS", value_delimiter = ',')]
+    pub(crate) metrics: Vec<String>,
     /// Leaves out the severities of a fault above the first at which no skill is left; each severity decodes the pictures once
     #[arg(long)]
     pub(crate) stop_at_no_skill: bool,

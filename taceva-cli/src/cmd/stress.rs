@@ -62,6 +62,7 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
             StressPart::All => DataPart::All,
         }),
         stops_at_no_skill: args.stop_at_no_skill,
+        metrics: args.metrics.clone(),
     };
     let models = context.models()?;
     let model = models.open(&args.model)?;

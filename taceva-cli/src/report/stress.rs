@@ -8,7 +8,7 @@ use taceva_report::{Cell, Column, FormattedValue, Table, main_channels};
 use taceva_stress::{By, Estimate, FaultReport, NEVER, StressReport, Undefined};
 
 pub(crate) use self::numbers::numbers;
-use self::remarks::{missed_targets, reference_tests, unshown_skill};
+use self::remarks::{missed_targets, other_metrics, reference_tests, unshown_skill};
 
 /// Table for readers with one row for each fault and severity: ratios of the error with the fault to the error without the fault.
 pub(crate) fn table(report: &StressReport) -> Table {
@@ -90,6 +90,7 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     notes.extend(unshown_skill(report.samples, skills));
     let faults = report.faults.iter();
     notes.extend(faults.map(|fault| of_fault(report, fault, channels)));
+    notes.extend(other_metrics(report));
     notes.extend(reference_tests(report, channels));
     let mean = by_channel(channels, |name| Some(phrase(report.mean.get(name)?, "")));
     let is_bound = report.faults.iter().any(|fault| fault.stopped_at.is_some());

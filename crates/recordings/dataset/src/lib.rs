@@ -53,9 +53,10 @@ pub use digest::{Digest, DigestError};
 pub use error::{DatasetError, Place};
 pub use frame_retries::{add_frame_retries, add_frozen_frames, frame_retries, frozen_frames};
 pub use header::{
-    Extension, Footprint, FrameCodec, FramesInfo, Header, Known, LeftOut, LivePredictions,
-    MappedClass, MappedColumn, MappedJoin, MappedPictures, RecordingFacts, ReducedFrames,
-    ReferenceInfo, SensorFacts, Shape, Source, SourcesInfo, StreamFacts, TableInfo, ViewInfo,
+    Extension, Footprint, FrameCodec, FramesInfo, Header, Known, Leds, LeftOut, LivePredictions,
+    MappedClass, MappedColumn, MappedJoin, MappedPictures, PictureSide, RecordingFacts,
+    ReducedFrames, ReferenceInfo, SensorFacts, Shape, Source, SourcesInfo, StreamFacts, TableInfo,
+    ViewInfo,
 };
 pub use later_facts::{add_device_warnings, add_measured_settings};
 pub use maps::StoredMap;

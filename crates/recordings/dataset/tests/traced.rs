@@ -8,7 +8,8 @@ use taceva_core::{
     Traceability,
 };
 use taceva_dataset::{
-    Dataset, DatasetError, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
+    Dataset, DatasetError, Leds, PictureSide, Recorder, RecordingFacts, RecordingSpec, SensorFacts,
+    Source,
 };
 
 /// Transducer with the certificate of this number.
@@ -275,6 +276,34 @@ fn joined_recordings_state_the_presses_on_their_gel_only_if_they_agree() {
     assert_eq!(presses(vec![new, worn]), None);
     let same = vec![after("a", 70, 0.5), after("b", 70, 0.6)];
     assert_eq!(presses(same), Some(70));
+}
+
+#[test]
+fn joined_recordings_state_the_sides_of_their_leds_only_if_they_agree() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let lit = |name: &str, red: PictureSide, force: f64| {
+        let path = folder.path().join(name);
+        let mut spec = spec("D-K-1");
+        spec.facts.sensor.leds.red = Some(red);
+        let mut recorder = Recorder::create(&path, &spec).expect("created");
+        recorder.append(&sample("1", force)).expect("recorded");
+        recorder.close().expect("closed");
+        Dataset::open(&path).expect("opens")
+    };
+    let leds = |recordings| {
+        let joined = Dataset::joined(recordings).expect("alike");
+        joined.header().sensor.leds
+    };
+    let same = vec![
+        lit("a", PictureSide::Left, 0.5),
+        lit("b", PictureSide::Left, 0.6),
+    ];
+    assert_eq!(leds(same).red, Some(PictureSide::Left));
+    let turned = vec![
+        lit("c", PictureSide::Left, 0.5),
+        lit("d", PictureSide::Top, 0.6),
+    ];
+    assert_eq!(leds(turned), Leds::default());
 }
 
 #[test]

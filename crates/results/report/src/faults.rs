@@ -9,7 +9,7 @@ use taceva_results::{ResultsError, Subject};
 
 /// Severity in results for a fault that ends the skill at no severity.
 pub(crate) const NEVER: u8 = 6;
-/// Schema of the results; a minor version may follow: `taceva.stress/1.2`.
+/// Schema of the results; a minor version may follow: `taceva.stress/1.3`.
 const SCHEMA: &str = "taceva.stress/1";
 
 /// Errors of a model on pictures or signals with faults, as read from JSON of the schema `taceva.stress/1`.

@@ -34,6 +34,7 @@ pub(crate) fn levels(
         untouched,
         contact,
         markers,
+        leds: setup.leds,
         seed: request.seed,
         draws: request.draws,
     };
@@ -57,8 +58,10 @@ pub(crate) fn cells<'m>(
         for level in &levels[position].reached {
             let seeds = draw_seeds(fault, request.seed, request.draws);
             let stresses = seeds.into_iter();
-            let stresses = stresses
-                .map(|seed| Stress::new(fault, level.parameter, seed).with_markers(markers));
+            let stresses = stresses.map(|seed| {
+                let stress = Stress::new(fault, level.parameter, seed);
+                stress.with_markers(markers).with_leds(setup.leds)
+            });
             let stresses = stresses.collect();
             cells.push(Cell::new(position, *level, stresses, model, untouched));
         }

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use serde::Serialize;
+use taceva_metrics::{Interval, Score, UndefinedReason, Value};
 
 /// Largest number that counts as 0, because rounding errors can cause it.
 const ROUNDING: f64 = 1e-9;
@@ -82,6 +83,24 @@ pub struct Estimate {
 }
 
 impl Estimate {
+    /// A score as a number with its interval.
+    pub(crate) fn of(score: &Score) -> Estimate {
+        let Some(value) = score.value.scalar() else {
+            return Estimate::undefined(match score.value {
+                Value::Undefined(UndefinedReason::ConstantTruth { .. }) => Undefined::ConstantTruth,
+                _ => Undefined::Empty,
+            });
+        };
+        let interval = match (score.interval.ends(), &score.interval) {
+            (Some(ends), _) => Ok(ends),
+            (None, Interval::Undefined(UndefinedReason::TooFewClusters { .. })) => {
+                Err(Undefined::TooFewClusters)
+            }
+            (None, _) => Err(Undefined::NoInterval),
+        };
+        Estimate::new(value, interval)
+    }
+
     /// A number, with its interval or the reason why the interval is absent.
     pub(crate) fn new(value: f64, interval: Result<[f64; 2], Undefined>) -> Estimate {
         Estimate {

@@ -59,7 +59,7 @@ impl Examples {
             let severities = of.severities.iter();
             severities.map(move |of| {
                 let stress = Stress::new(fault, of.parameter, report.seed);
-                (of.severity, stress)
+                (of.severity, stress.with_leds(dataset.header().sensor.leds))
             })
         });
         let cells: Vec<(u8, Stress<'static>)> = cells.collect();

@@ -1,5 +1,7 @@
 //! Kinds of faults.
 
+use taceva_dataset::Leds;
+
 use crate::canvas::{Canvas, Realisation};
 use crate::labels::LabelChange;
 use crate::taxels::TaxelChange;
@@ -44,6 +46,8 @@ pub(crate) enum Effect {
     Growing(fn(&mut Canvas, &Realisation)),
     /// Changes the numbers of the picture at the places of markers.
     Markers(fn(&mut Canvas, &Realisation, &Markers)),
+    /// Changes the numbers of the colours of lost LEDs.
+    Leds(fn(&mut Canvas, &Realisation, Leds)),
     /// Replaces the picture by the previous picture.
     Before,
     /// Changes the labels, and no picture.
@@ -103,6 +107,11 @@ impl Fault {
             Effect::Taxels(change) => change.grows,
             _ => false,
         }
+    }
+
+    /// True if the fault changes the light of LEDs.
+    pub(crate) fn is_of_leds(&self) -> bool {
+        matches!(self.effect, Effect::Leds(_))
     }
 
     /// True if the fault changes markers.

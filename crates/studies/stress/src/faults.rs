@@ -27,6 +27,8 @@ use taceva_evaluate::EvaluateError;
 
 use crate::fault::Fault;
 
+pub(crate) use led_loss::note_on;
+
 /// Name of the list of faults of pictures.
 pub const LIST: &str = "gel-12";
 /// Name of the list of faults of camera files, markers, clocks and labels.

@@ -8,11 +8,12 @@ use crate::others::OtherFaults;
 use crate::report::FaultList;
 use crate::setup::StressRequest;
 
-/// Name and digest of the faults with their severities.
+/// Name and digest of the faults with their severities. `has_leds` is true if the sides of the LEDs are known.
 pub(crate) fn list(
     faults: &[&'static Fault],
     request: &StressRequest,
     others: OtherFaults<'_>,
+    has_leds: bool,
 ) -> FaultList {
     let known = faults.iter().map(|fault| fault.id);
     let own: Vec<&str> = known.clone().collect();
@@ -34,6 +35,9 @@ pub(crate) fn list(
     );
     if request.draws > 1 {
         text.push_str(&format!("{} draws\n", request.draws));
+    }
+    for fault in faults.iter().filter(|fault| has_leds && fault.is_of_leds()) {
+        text.push_str(&format!("{} by colour\n", fault.id));
     }
     for fault in others.foreign {
         text.push_str(&format!("{} is {}\n", fault.name(), fault.key()));

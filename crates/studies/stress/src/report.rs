@@ -13,7 +13,7 @@ use crate::ratio::Errors;
 use crate::severity::{By, Unreached};
 
 /// Schema of the result.
-pub const STRESS_SCHEMA: &str = "taceva.stress/1.2";
+pub const STRESS_SCHEMA: &str = "taceva.stress/1.3";
 
 /// Numbers by the name of a channel or plane.
 pub type ByChannel<T> = BTreeMap<String, T>;
@@ -92,23 +92,29 @@ pub struct FaultList {
 }
 
 /// Errors of a channel without a fault.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CleanScore {
     /// Mean absolute error.
     pub mae: Estimate,
     /// Skill over a constant prediction.
     pub skill: Estimate,
+    /// Metrics on request, by name.
+    #[serde(skip_serializing_if = "ByChannel::is_empty")]
+    pub metrics: ByChannel<Estimate>,
     /// Mean absolute error of the constant prediction; `None` if unknown.
     pub constant: Option<f64>,
 }
 
 /// Errors of a channel with a fault.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CellScore {
     /// Mean absolute error of predictions as the model gives them.
     pub mae: Estimate,
     /// Skill over a constant prediction.
     pub skill: Estimate,
+    /// Metrics on request, by name.
+    #[serde(skip_serializing_if = "ByChannel::is_empty")]
+    pub metrics: ByChannel<Estimate>,
     /// Error divided by the error without the fault.
     pub degradation: Estimate,
     /// The smaller of the error and the error of the constant prediction; `None` if one of them is unknown.

@@ -6,9 +6,7 @@ use std::num::NonZeroUsize;
 use taceva_core::{Channel, Channels, Column, Field};
 use taceva_dataset::Dataset;
 use taceva_evaluate::{Columns, EvaluateError, Target, accumulate};
-use taceva_metrics::{
-    Interval, MetricPlan, PLANES, Score, UndefinedReason, Value, catalogue, plane_axes,
-};
+use taceva_metrics::{MetricPlan, PLANES, Score, catalogue, plane_axes};
 use taceva_models::Model;
 
 use crate::estimate::{Estimate, Undefined};
@@ -39,18 +37,22 @@ pub(crate) struct Scored {
     pub(crate) scores: ByChannel<Score>,
     pub(crate) mae: ByChannel<Estimate>,
     skill: ByChannel<Estimate>,
+    /// Metrics on request.
+    others: BTreeMap<&'static str, ByChannel<Estimate>>,
     pub(crate) errors: ByChannel<Errors>,
     /// Least and greatest mean error of a single draw; empty for one draw.
     spread: ByChannel<[f64; 2]>,
 }
 
 impl<'a> Scorer<'a> {
-    /// Scorer of `rows` by the channels of `model` except angles, whose errors are not plain differences.
+    /// Scorer of `rows` by the channels of `model` except angles, whose errors are not plain differences. Other `metrics` are computed beside
+    /// error and skill.
     pub(crate) fn new(
         dataset: &'a Dataset,
         model: &Model,
         target: &'a Target,
         rows: &'a [usize],
+        metrics: &[String],
         jobs: NonZeroUsize,
     ) -> Result<Scorer<'a>, EvaluateError> {
         let asked = model.channels().iter().enumerate();
@@ -71,7 +73,8 @@ impl<'a> Scorer<'a> {
             .constants()
             .map(|(name, constant)| (name.to_owned(), constant))
             .collect();
-        let metrics = catalogue::select([MAE, SKILL])?;
+        let named = metrics.iter().map(String::as_str);
+        let metrics = catalogue::select(named.chain([MAE, SKILL]))?;
         let available = dataset.fields().with(Field::Prediction);
         let plan = MetricPlan::new(&metrics, channels, available).with_constants(constants)?;
         let divided = target.divided.as_ref();
@@ -177,7 +180,7 @@ impl<'a> Scorer<'a> {
         let evaluation = accumulate(&source, &self.plan, self.jobs)?.finish()?;
         let of_metric = |id: &str| -> ByChannel<Estimate> {
             let scores = evaluation.scores().filter(|(metric, ..)| metric.id == id);
-            let scores = scores.map(|(_, name, score)| (name.to_owned(), estimate(score)));
+            let scores = scores.map(|(_, name, score)| (name.to_owned(), Estimate::of(score)));
             scores.collect()
         };
         let scores = evaluation
@@ -185,6 +188,8 @@ impl<'a> Scorer<'a> {
             .filter(|(metric, ..)| metric.id == MAE)
             .map(|(_, name, score)| (name.to_owned(), score.clone()))
             .collect();
+        let others = self.plan.kept().iter().map(|metric| metric.id);
+        let others = others.filter(|id| ![MAE, SKILL].contains(id));
         let mae = of_metric(MAE);
         let errors = mae.keys();
         let errors = errors.map(|name| (name.clone(), self.errors(name, &columns)));
@@ -195,6 +200,7 @@ impl<'a> Scorer<'a> {
             spread: spread.collect(),
             errors: errors.collect(),
             skill: of_metric(SKILL),
+            others: others.map(|id| (id, of_metric(id))).collect(),
             mae,
         })
     }
@@ -289,6 +295,7 @@ impl<'a> Scorer<'a> {
             let score = CleanScore {
                 mae: *mae,
                 skill: of.skill_of(name),
+                metrics: of.metrics_of(name),
                 constant: constants.get(name).copied(),
             };
             (name.clone(), score)
@@ -310,6 +317,7 @@ impl Scored {
             let score = CellScore {
                 mae: *mae,
                 skill: self.skill_of(name),
+                metrics: self.metrics_of(name),
                 degradation: degradation(name, [self], baseline),
                 capped: capped.map(|(error, constant)| error.min(constant)),
                 spread: self.spread_beside(name, baseline),
@@ -351,6 +359,13 @@ impl Scored {
         let known = self.skill.get(name).copied();
         known.unwrap_or(Estimate::undefined(Undefined::Empty))
     }
+
+    /// Metrics on request of a channel, by their names.
+    fn metrics_of(&self, name: &str) -> ByChannel<Estimate> {
+        let all = self.others.iter();
+        let known = all.filter_map(|(id, of)| Some(((*id).to_owned(), *of.get(name)?)));
+        known.collect()
+    }
 }
 
 /// Mean degradation of a channel over some cells.
@@ -379,22 +394,4 @@ pub(crate) fn mean_degradation<'s>(
         Some(clean) => mean_ratio(shares, clean),
         None => Estimate::undefined(Undefined::Empty),
     }
-}
-
-/// A score as a number with its interval.
-fn estimate(score: &Score) -> Estimate {
-    let Some(value) = score.value.scalar() else {
-        return Estimate::undefined(match score.value {
-            Value::Undefined(UndefinedReason::ConstantTruth { .. }) => Undefined::ConstantTruth,
-            _ => Undefined::Empty,
-        });
-    };
-    let interval = match (score.interval.ends(), &score.interval) {
-        (Some(ends), _) => Ok(ends),
-        (None, Interval::Undefined(UndefinedReason::TooFewClusters { .. })) => {
-            Err(Undefined::TooFewClusters)
-        }
-        (None, _) => Err(Undefined::NoInterval),
-    };
-    Estimate::new(value, interval)
 }

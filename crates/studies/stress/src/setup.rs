@@ -1,7 +1,7 @@
 //! Choice of samples and faults, checked before any picture is read.
 
-use taceva_core::{Frame, counted, shown};
-use taceva_dataset::Dataset;
+use taceva_core::{Frame, counted, shown, suggestion};
+use taceva_dataset::{Dataset, Leds};
 use taceva_evaluate::{DataPart, EvaluateError, Plan, Target, subject_of};
 use taceva_models::{MarkerTracker, Model};
 use taceva_results::not_measured;
@@ -25,6 +25,18 @@ const NO_CONTACT: &str = "the change by contact is unknown: expected rows withou
 /// Minimum number of markers for a fault of markers. Fewer spots would fit into any grid.
 const LEAST_MARKERS: usize = 9;
 
+/// Metrics of cells, of which every cell has the first two. All are sums over samples, so a sample may have several draws.
+const METRICS: [&str; 8] = [
+    "mae",
+    "skill",
+    "rmse",
+    "bias",
+    "r2",
+    "smape",
+    "smape_gated",
+    "mae_euclid",
+];
+
 /// Choice of faults and samples.
 #[derive(Clone, Debug)]
 pub struct StressRequest {
@@ -43,6 +55,8 @@ pub struct StressRequest {
     /// True to leave out the severities of a fault of pictures or signals above the first at which no channel has skill. Each severity then decodes the scored
     /// pictures.
     pub stops_at_no_skill: bool,
+    /// Metrics of each cell beside mean absolute error and skill.
+    pub metrics: Vec<String>,
 }
 
 impl Default for StressRequest {
@@ -55,6 +69,7 @@ impl Default for StressRequest {
             draws: 1,
             part: None,
             stops_at_no_skill: false,
+            metrics: Vec::new(),
         }
     }
 }
@@ -68,7 +83,7 @@ pub fn usual_list(model: &Model) -> &'static str {
 }
 
 impl StressRequest {
-    /// The requested faults. Rejects invalid severities and draws, and an empty list of faults unless `has_others`.
+    /// The requested faults. Rejects invalid severities, draws and metrics, and an empty list of faults unless `has_others`.
     fn checked(&self, has_others: bool) -> Result<Vec<&'static Fault>, EvaluateError> {
         let refused = |words: &str| Err(EvaluateError::Request(words.to_owned()));
         let chosen = match self.faults.is_empty() && has_others {
@@ -84,6 +99,14 @@ impl StressRequest {
         }
         if self.draws == 0 {
             return refused("draws: found 0, expected at least 1");
+        }
+        let mut metrics = self.metrics.iter().map(String::as_str);
+        if let Some(unknown) = metrics.find(|name| !METRICS.contains(name)) {
+            return refused(&format!(
+                "metric `{}`: not a metric of cells, {}",
+                shown(unknown),
+                suggestion(unknown, &METRICS)
+            ));
         }
         Ok(chosen)
     }
@@ -101,6 +124,8 @@ pub(crate) struct Setup {
     /// Faults that leave rows out.
     pub(crate) of_rows: Vec<&'static Fault>,
     pub(crate) skipped: Vec<SkippedFault>,
+    /// Sides of the LEDs of the sensor.
+    pub(crate) leds: Leds,
 }
 
 impl Setup {
@@ -137,6 +162,9 @@ impl Setup {
     ) -> Result<Setup, EvaluateError> {
         let is_timed = shares(dataset, &samples.rows).is_some();
         let is_stream = chosen.iter().any(|fault| fault.is_of_rows()) && is_stream(dataset)?;
+        let leds = dataset.header().sensor.leds;
+        let frames = dataset.header().frames.as_ref();
+        let is_gray = frames.is_some_and(|frames| frames.info.format.samples() == 1);
         let lacks = |fault: &'static Fault| -> Option<&'static str> {
             if fault.is_of_pictures() && reads_signals(model) {
                 return Some(OF_PICTURES);
@@ -151,6 +179,9 @@ impl Setup {
                 return Some(
                     "no metric of time: expected the times `t_s` of a stream, at most 1 s apart",
                 );
+            }
+            if fault.is_of_leds() && !leds.is_unknown() && is_gray {
+                return Some("`leds` in [sensor] names colours, and the pictures are gray");
             }
             let is_alone = samples.rows.len() == 1;
             if is_alone && Stress::new(fault, 0.0, 0).repeats() {
@@ -181,6 +212,7 @@ impl Setup {
             faults: of_kind(Fault::is_of_pictures),
             samples,
             skipped,
+            leds,
         })
     }
 
@@ -344,7 +376,11 @@ pub fn stress_plan(
             )
         ),
     );
-    plan.step("score", "mae, skill");
+    let is_asked = |name: &&str| request.metrics.iter().any(|asked| asked == name);
+    let metrics = METRICS.into_iter();
+    let metrics = metrics.filter(|name| METRICS[..2].contains(name) || is_asked(name));
+    let metrics: Vec<&str> = metrics.collect();
+    plan.step("score", metrics.join(", "));
     let subject = subject_of(dataset);
     if let Some(words) = not_measured([subject.source.as_str()]) {
         plan.step("note", words);

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use taceva_core::{Frame, shown};
+use taceva_dataset::Leds;
 use taceva_evaluate::EvaluateError;
 use taceva_models::MarkerTracker;
 
@@ -171,6 +172,7 @@ pub(crate) struct Reference<'a> {
     pub(crate) untouched: &'a Frame,
     pub(crate) contact: f64,
     pub(crate) markers: Option<&'a MarkerTracker>,
+    pub(crate) leds: Leds,
     pub(crate) seed: u64,
     /// Draws of the places of a fault.
     pub(crate) draws: u32,
@@ -192,7 +194,8 @@ impl Reference<'_> {
             .flat_map(|&seed| (0..drawn).map(move |number| (seed, number)));
         let changes = pictures.map(|(seed, number)| {
             let stress = Stress::new(fault, parameter, seed);
-            let stress = stress.with_markers(self.markers).at(MIDDLE);
+            let stress = stress.with_markers(self.markers).with_leds(self.leds);
+            let stress = stress.at(MIDDLE);
             let sample = format!("untouched {number}");
             difference(&stress.apply(self.untouched, &sample, None), self.untouched)
         });

@@ -2,6 +2,7 @@
 
 use taceva_core::random::{Draws, fnv_1a, mix};
 use taceva_core::{Frame, Signals, single};
+use taceva_dataset::Leds;
 use taceva_models::MarkerTracker;
 
 use crate::canvas::{Canvas, Realisation};
@@ -40,6 +41,7 @@ pub struct Stress<'m> {
     parameter: f64,
     seed: u64,
     markers: Option<&'m MarkerTracker>,
+    leds: Leds,
 }
 
 impl<'m> Stress<'m> {
@@ -50,6 +52,7 @@ impl<'m> Stress<'m> {
             parameter,
             seed,
             markers: None,
+            leds: Leds::default(),
         }
     }
 
@@ -57,6 +60,12 @@ impl<'m> Stress<'m> {
     #[must_use]
     pub fn with_markers(self, markers: Option<&'m MarkerTracker>) -> Stress<'m> {
         Stress { markers, ..self }
+    }
+
+    /// The same fault of a sensor with these LEDs. A loss of LEDs then dims only the colours of one side, unless the picture is gray.
+    #[must_use]
+    pub fn with_leds(self, leds: Leds) -> Stress<'m> {
+        Stress { leds, ..self }
     }
 
     /// The same fault at a share of the duration of the recording, from 0 to 1. Only a fault that grows with time depends on this share.
@@ -95,6 +104,12 @@ impl<'m> Stress<'m> {
             Effect::Numbers(change) | Effect::Growing(change) => {
                 let mut canvas = Canvas::of(frame);
                 change(&mut canvas, &self.drawn(sample));
+                canvas.into_frame()
+            }
+            Effect::Leds(change) => {
+                let mut canvas = Canvas::of(frame);
+                let leds = Some(self.leds).filter(|_| canvas.colours() > 1);
+                change(&mut canvas, &self.drawn(sample), leds.unwrap_or_default());
                 canvas.into_frame()
             }
             Effect::Markers(change) => match self.markers_of(frame) {

@@ -10,6 +10,7 @@ use taceva_results::not_measured;
 use crate::cells::{cells, levels};
 use crate::estimate::{Estimate, Undefined};
 use crate::fault::Fault;
+use crate::faults::note_on;
 use crate::findings::{CHANGED_REST, LOW, breaks_at, recovers, unnoticed};
 use crate::list::list;
 use crate::looks::codes;
@@ -105,7 +106,14 @@ fn measure(
     let shares = shares(dataset, &setup.samples.rows);
     let shares = shares.unwrap_or_else(|| vec![1.0; dataset.table().rows()]);
     let rows = &setup.samples.rows;
-    let scorer = Scorer::new(dataset, model, &setup.samples.target, rows, work.jobs)?;
+    let scorer = Scorer::new(
+        dataset,
+        model,
+        &setup.samples.target,
+        rows,
+        &request.metrics,
+        work.jobs,
+    )?;
     let pictures = Pictures {
         dataset,
         model,
@@ -194,7 +202,7 @@ fn measure(
         not_measured: not_measured([subject.source.as_str()]),
         subject,
         by: request.by,
-        list: list(&tested, request, others),
+        list: list(&tested, request, others, !setup.leds.is_unknown()),
         seed: request.seed,
         draws: request.draws,
         samples: setup.samples.rows.len(),
@@ -260,7 +268,10 @@ impl Results<'_> {
             id: of.id.to_owned(),
             title: of.title.to_owned(),
             parameter: of.parameter.to_owned(),
-            note: of.note.map(str::to_owned),
+            note: match of.is_of_leds() {
+                true => note_on(self.dataset.header().sensor.leds),
+                false => of.note.map(str::to_owned),
+            },
             mean: by_channel(&stale),
             recovers: by_channel(&|name: &str| match has_fresh {
                 true => recovers(&severities, name, &stale(name)),

@@ -159,7 +159,14 @@ impl Measured {
         };
         let shares = vec![1.0; dataset.table().rows()];
         let found = predictions(dataset, model, &samples.rows, &shares, &[], None, work)?;
-        let scorer = Scorer::new(dataset, model, &samples.target, &samples.rows, work.jobs)?;
+        let scorer = Scorer::new(
+            dataset,
+            model,
+            &samples.target,
+            &samples.rows,
+            &[],
+            work.jobs,
+        )?;
         let scored = scorer.score(&found.clean)?;
         Ok(Measured {
             units: scorer.units(&scored),

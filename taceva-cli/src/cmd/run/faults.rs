@@ -198,6 +198,7 @@ impl Wanted {
                 by: usual.by,
                 part: None,
                 stops_at_no_skill: usual.stops_at_no_skill,
+                metrics: usual.metrics,
             },
             is_usual: stress.faults.is_none(),
             gels,

@@ -1,5 +1,6 @@
 //! Table of every number of a stress test, for programs.
 
+use taceva_metrics::{ScoreUnit, catalogue};
 use taceva_report::{Cell, Table};
 use taceva_stress::{
     ByChannel, CellScore, ErrorDifference, Estimate, FaultReport, SeverityReport, StressReport,
@@ -34,6 +35,7 @@ pub(crate) fn numbers(report: &StressReport) -> Table {
         let unit = rows.unit(channel);
         rows.push(&Place::default(), channel, "mae", &score.mae, unit);
         rows.push(&Place::default(), channel, "skill", &score.skill, "1");
+        rows.push_metrics(&Place::default(), channel, &score.metrics);
     }
     for (channel, mean) in &report.mean {
         rows.push(&Place::default(), channel, "mD", mean, "1");
@@ -131,6 +133,7 @@ impl<'a> Rows<'a> {
         let unit = self.unit(channel);
         self.push(place, channel, "mae", &score.mae, unit);
         self.push(place, channel, "skill", &score.skill, "1");
+        self.push_metrics(place, channel, &score.metrics);
         self.push(place, channel, "degradation", &score.degradation, "1");
         let capped = Estimate::of_known(score.capped);
         self.push(place, channel, "capped", &capped, unit);
@@ -180,6 +183,16 @@ impl<'a> Rows<'a> {
         let value = Estimate::of_known(of.value);
         self.push_row(place, channel, "difference", &value, unit, reason);
         self.push_words(place, channel, "difference_p", of.p, reason);
+    }
+
+    fn push_metrics(&mut self, place: &Place<'_>, channel: &str, metrics: &ByChannel<Estimate>) {
+        for (metric, of) in metrics {
+            let unit = match catalogue::find(metric).map(|metric| metric.unit) {
+                Some(ScoreUnit::OfChannel) => self.unit(channel),
+                _ => "1",
+            };
+            self.push(place, channel, metric, of, unit);
+        }
     }
 
     fn push_times(&mut self, place: &Place<'_>, times: &ByChannel<TimeScore>) {

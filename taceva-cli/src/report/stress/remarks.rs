@@ -51,6 +51,15 @@ pub(super) fn missed_targets(report: &StressReport) -> Option<String> {
     })
 }
 
+/// Remark on the metrics on request, which are too many for a table of readers; `None` without any.
+pub(super) fn other_metrics(report: &StressReport) -> Option<String> {
+    let names = report.clean.values().flat_map(|of| of.metrics.keys());
+    let names: BTreeSet<&str> = names.map(String::as_str).collect();
+    let names: Vec<&str> = names.into_iter().collect();
+    let words = "of each channel, fault and severity: in --format csv and json";
+    (!names.is_empty()).then(|| format!("{} {words}.", names.join(", ")))
+}
+
 /// Remark on the test of differences from the reference model, with the differences that were not tested; `None` without a reference model.
 pub(super) fn reference_tests(report: &StressReport, channels: &[&str]) -> Option<String> {
     report.reference.as_ref()?;

@@ -196,6 +196,45 @@ fn a_killed_test_leaves_a_whole_result_and_a_whole_folder_of_pictures_or_none() 
 }
 
 #[test]
+fn metrics_on_request_are_in_json_text_csv_and_the_plan_and_a_misspelt_one_is_refused() {
+    let bench = bench();
+    let words = "stress unseen --model m.taceva --faults dust --severity 1,5 --by parameter";
+    let asked = format!("{words} --metrics mae,rmse,r2");
+    let report = bench.json(&asked);
+    crate::schema::check("stress", &report);
+    let scores = [
+        &report["clean"],
+        &report["faults"][0]["severities"][1]["stale"],
+    ];
+    for score in scores {
+        let metrics = score["Fz"]["metrics"].as_object().expect("metrics");
+        let names: Vec<&String> = metrics.keys().collect();
+        assert_eq!(names, ["r2", "rmse"]);
+        assert!(metrics["r2"]["value"].is_number(), "{score}");
+    }
+    assert!(bench.json(words)["clean"]["Fz"].get("metrics").is_none());
+    let said = bench.ok(&format!("{asked} -q"));
+    let note = "r2, rmse of each channel, fault and severity: in --format csv and json.";
+    assert!(said.contains(note), "{said}");
+    let csv = bench.ok(&format!("{asked} --format csv -q"));
+    let rows = csv.lines().filter(|row| row.contains(",Fz,rmse,"));
+    let rows: Vec<&str> = rows.collect();
+    assert_eq!(
+        rows.len(),
+        3,
+        "without the fault, and two severities: {csv}"
+    );
+    assert!(rows.iter().all(|row| row.contains(",N,")), "{csv}");
+    let plan = bench.ok(&format!("{asked} --explain"));
+    assert!(plan.contains("mae, skill, rmse, r2"), "{plan}");
+    bench.refused(
+        &format!("{words} --metrics rmsee"),
+        2,
+        "metric `rmsee`: not a metric of cells, did you mean `rmse`?",
+    );
+}
+
+#[test]
 fn recording_faults_have_their_own_list_and_name_what_they_lack() {
     let bench = bench();
     let report = bench.json("stress unseen --model m.taceva --faults recording-5 --by parameter");

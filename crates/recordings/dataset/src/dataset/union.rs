@@ -9,7 +9,7 @@ use taceva_core::{Channels, Clock, Traceability, counted};
 use super::Dataset;
 use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
-use crate::header::Header;
+use crate::header::{Header, Leds};
 use crate::table::{FrameEntry, RowNames, Table};
 use crate::task::Task;
 use crate::text::shown;
@@ -320,6 +320,9 @@ fn joined_header(recordings: &[Dataset], table: &Table) -> Header {
         }
         if header.sensor.presses_since_gel != other.sensor.presses_since_gel {
             header.sensor.presses_since_gel = None;
+        }
+        if header.sensor.leds != other.sensor.leds {
+            header.sensor.leds = Leds::default();
         }
         header
             .settings

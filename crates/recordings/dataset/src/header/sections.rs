@@ -3,6 +3,7 @@
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use taceva_core::FrameInfo;
 
+use super::leds::Leds;
 use super::reduction::ReducedFrames;
 use crate::decode::ChannelOrder;
 use crate::digest::Digest;
@@ -111,10 +112,13 @@ pub struct SensorFacts {
     /// Presses on this gel before the recording; `None` if nobody counted them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub presses_since_gel: Option<u32>,
+    /// Sides of the picture at which the LEDs of each colour stand, if stated.
+    #[serde(default, skip_serializing_if = "Leds::is_unknown")]
+    pub leds: Leds,
 }
 
 impl SensorFacts {
-    /// Sensor of `model` with unknown serial number, gel, opacity and presses.
+    /// Sensor of `model` with unknown serial number, gel, opacity, presses and LEDs.
     pub fn new(model: impl Into<String>) -> SensorFacts {
         SensorFacts {
             model: model.into(),
@@ -122,6 +126,7 @@ impl SensorFacts {
             gel: "unknown".to_owned(),
             opaque: Known::Unknown,
             presses_since_gel: None,
+            leds: Leds::default(),
         }
     }
 

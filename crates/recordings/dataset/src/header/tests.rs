@@ -34,6 +34,10 @@ fn header() -> Header {
             gel: "g1".to_owned(),
             opaque: Known::Unknown,
             presses_since_gel: Some(1200),
+            leds: Leds {
+                red: Some(PictureSide::Left),
+                ..Leds::default()
+            },
         },
         footprint: Some(Footprint {
             shape: Shape::Disc,
@@ -125,6 +129,30 @@ fn a_header_reads_back_as_it_was_written() {
         ..read
     };
     assert_eq!(unread, header());
+}
+
+#[test]
+fn an_unknown_side_or_colour_of_leds_is_refused_with_its_line_and_the_known_ones() {
+    let known = "red = \"left\"";
+    for (wrong, expected) in [
+        (
+            "red = \"up\"",
+            "unknown variant `up`, expected one of `left`, `right`, `top`, `bottom`",
+        ),
+        (
+            "amber = \"left\"",
+            "`amber`: unknown key; known here: red, green, blue",
+        ),
+    ] {
+        let text = header().body().replace(known, wrong);
+        let text = taceva_files::seal::toml_text::seal(&text).expect("TOML");
+        let line = text.lines().position(|line| line.contains(wrong));
+        let line = line.expect("written") + 1;
+        let message = Header::parse(Path::new("dataset.toml"), text.into_bytes());
+        let message = message.expect_err("wrong").to_string();
+        let expected = format!("line {line}: {expected}");
+        assert!(message.contains(&expected), "{expected}: {message}");
+    }
 }
 
 #[test]

@@ -11,7 +11,8 @@ use taceva_core::{
     PixelFormat, Readings, Sample, SignalInfo, Signals, SilentProgress, Stamp, Traceability, Unit,
 };
 use taceva_dataset::{
-    Dataset, Footprint, Recorder, RecordingFacts, RecordingSpec, SensorFacts, SignalsSpec, Source,
+    Dataset, Footprint, PictureSide, Recorder, RecordingFacts, RecordingSpec, SensorFacts,
+    SignalsSpec, Source,
 };
 use taceva_import::{ExportForm, ExportPlan, ExportReport, ImportMap, ImportPlan};
 
@@ -21,10 +22,11 @@ const SAMPLES: u16 = 1030;
 /// Recording with every id, missing labels, a picture without contact, and frames stored as differences.
 pub(crate) fn recorded(folder: &Path) -> Dataset {
     let path = folder.join("recorded");
-    let sensor = SensorFacts::new("gel \"π\"")
+    let mut sensor = SensorFacts::new("gel \"π\"")
         .with_presses_since_gel(1200_u32)
         .with_serial("7")
         .with_opaque(true);
+    sensor.leds.green = Some(PictureSide::Top);
     let facts = RecordingFacts::new(Source::Simulated, Clock::Monotonic, sensor)
         .with_traceability(traced())
         .with_footprint(Footprint::rectangle(8.5, 10.0).with_depth_max(2.25));

@@ -1,4 +1,6 @@
-//! Fault in which the lamps of the left side dim.
+//! Fault in which the lamps of one side dim.
+
+use taceva_dataset::{Leds, PictureSide};
 
 use crate::canvas::{Canvas, Realisation};
 use crate::fault::{Effect, Fault, Scope};
@@ -11,15 +13,40 @@ pub(super) static FAULT: Fault = Fault {
     table: [0.03, 0.07, 0.15, 0.30, 0.50],
     most: 1.0,
     note: None,
-    effect: Effect::Numbers(apply),
+    effect: Effect::Leds(apply),
 };
 
-fn apply(canvas: &mut Canvas, drawn: &Realisation) {
-    let (colours, steps) = (canvas.colours(), canvas.width().saturating_sub(1).max(1));
-    for row in canvas.rows() {
+/// Dims the colours whose LEDs stand at the lost side; all colours from the left if no side is known.
+fn apply(canvas: &mut Canvas, drawn: &Realisation, leds: Leds) {
+    let lost = lost_side(leds);
+    let is_lost = leds.sides().map(|side| side == lost);
+    let colours = canvas.colours();
+    let [right, bottom] = [canvas.width(), canvas.height()].map(|size| size.saturating_sub(1));
+    for (y, row) in canvas.rows().enumerate() {
         for (x, pixel) in row.chunks_exact_mut(colours).enumerate() {
-            let kept = 1.0 - drawn.parameter * (1.0 - x as f32 / steps as f32);
-            pixel.iter_mut().for_each(|value| *value *= kept);
+            let [place, steps] = match lost {
+                None | Some(PictureSide::Left) => [x, right],
+                Some(PictureSide::Right) => [right - x, right],
+                Some(PictureSide::Top) => [y, bottom],
+                Some(PictureSide::Bottom) => [bottom - y, bottom],
+            };
+            let kept = 1.0 - drawn.parameter * (1.0 - place as f32 / steps.max(1) as f32);
+            for (value, _) in pixel.iter_mut().zip(is_lost).filter(|(_, lost)| *lost) {
+                *value *= kept;
+            }
         }
     }
+}
+
+/// First of left, right, top and bottom at which LEDs stand; `None` if no side is known.
+fn lost_side(leds: Leds) -> Option<PictureSide> {
+    leds.sides().into_iter().flatten().min()
+}
+
+/// Remark on the side whose LEDs dim; `None` if no side is known.
+pub(crate) fn note_on(leds: Leds) -> Option<String> {
+    let side = format!("{:?}", lost_side(leds)?).to_lowercase();
+    Some(format!(
+        "only the colours that `leds` in [sensor] of the recording states for the {side} side dim, from that side"
+    ))
 }

@@ -100,6 +100,24 @@ fn severities_outside_of_one_to_five_or_out_of_order_are_refused() {
 }
 
 #[test]
+fn a_metric_that_no_cell_has_is_refused_with_the_nearest_name() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (dataset, model) = unseen(folder.path());
+    for (name, expected) in [
+        ("rmsee", "did you mean `rmse`?"),
+        ("sensitivity", "expected one of `mae`, `skill`, `rmse`"),
+    ] {
+        let request = StressRequest {
+            metrics: vec!["r2".to_owned(), name.to_owned()],
+            ..StressRequest::default()
+        };
+        let said = refused(&dataset, &model, &request);
+        let expected = format!("metric `{name}`: not a metric of cells, {expected}");
+        assert!(said.starts_with(&expected), "{said}");
+    }
+}
+
+#[test]
 fn no_draw_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let (dataset, model) = unseen(folder.path());

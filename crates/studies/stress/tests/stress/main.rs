@@ -6,6 +6,7 @@ mod bench_monitor;
 mod drawing;
 mod foreign;
 mod golden;
+mod leds;
 mod looks;
 #[cfg(target_os = "linux")]
 mod memory;

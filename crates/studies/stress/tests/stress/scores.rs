@@ -6,7 +6,8 @@ use taceva_core::{Channel, Channels, Clock, PixelFormat, Readings, Sample, count
 use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 use taceva_evaluate::{EvaluateRequest, ModelChoice, Work, evaluate};
 use taceva_stress::{
-    By, FaultReport, NEVER, StressReport, StressRequest, Undefined, Unnoticed, stress, stress_plan,
+    By, ByChannel, Estimate, FaultReport, NEVER, StressReport, StressRequest, Undefined, Unnoticed,
+    stress, stress_plan,
 };
 
 use crate::drawing::{
@@ -133,6 +134,49 @@ fn errors_without_a_fault_are_those_of_an_evaluation() {
         );
     }
     assert!(report.clean["Fz"].skill.value.expect("a score") > 0.5);
+}
+
+#[test]
+fn metrics_on_request_stand_in_every_cell_and_change_no_other_number() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (dataset, model) = unseen(folder.path());
+    let plain = StressRequest {
+        severities: vec![1, 4],
+        draws: 3,
+        ..by_parameter(&["exposure_low", "tear"])
+    };
+    let asked = StressRequest {
+        metrics: ["rmse", "mae", "r2"].map(str::to_owned).to_vec(),
+        ..plain.clone()
+    };
+    let tested = |request: &StressRequest| stress(&dataset, &model, request, WORK).expect("tested");
+    let mut report = tested(&asked);
+    let check = |metrics: &ByChannel<Estimate>, mae: Estimate| {
+        let names: Vec<&String> = metrics.keys().collect();
+        assert_eq!(names, ["r2", "rmse"]);
+        let value = |name: &str| metrics[name].value.expect("a score");
+        // The variance of the forces, twelve of each of 0.4, 0.8, 1.2, 1.6 and 2.0 N, is 0.32.
+        let unexplained = 0.32 * (1.0 - value("r2"));
+        let ratio = unexplained / (value("rmse") * value("rmse"));
+        assert!((ratio - 1.0).abs() < 1e-6, "{ratio}");
+        assert!(value("rmse") >= mae.value.expect("a score"));
+    };
+    check(&report.clean["Fz"].metrics, report.clean["Fz"].mae);
+    for of in report.faults.iter().flat_map(|fault| &fault.severities) {
+        for side in [Some(&of.stale), of.fresh.as_ref()].into_iter().flatten() {
+            check(&side["Fz"].metrics, side["Fz"].mae);
+        }
+    }
+    let clean = report.clean.values_mut();
+    clean.for_each(|score| score.metrics.clear());
+    let faults = report.faults.iter_mut();
+    for of in faults.flat_map(|fault| &mut fault.severities) {
+        let fresh = of.fresh.iter_mut().flatten();
+        let both = of.stale.iter_mut().chain(fresh);
+        both.for_each(|(_, score)| score.metrics.clear());
+    }
+    let text = |report: &StressReport| serde_json::to_string(report).expect("JSON");
+    assert_eq!(text(&report), text(&tested(&plain)));
 }
 
 #[test]

@@ -57,7 +57,7 @@ fn a_model_of_signals_is_tested_with_faults_of_taxels_by_parameter_and_states_th
     for id in ["taxel_dead", "taxel_gain"] {
         let last = of(&report, id).severities.last().expect("the fifth");
         assert!(last.stimulus.expect("known") > 0.5, "{id}");
-        let score = last.stale["Fz"];
+        let score = &last.stale["Fz"];
         assert!(score.degradation.value.expect("a ratio") > 1.0, "{id}");
         assert!(score.spread.is_some(), "{id}");
     }

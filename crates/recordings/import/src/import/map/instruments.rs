@@ -7,7 +7,7 @@ use taceva_core::{Certificate, Instrument, Traceability};
 use toml::{Spanned, Value};
 
 use super::check::Check;
-use taceva_dataset::{DatasetError, Known, SensorFacts};
+use taceva_dataset::{DatasetError, Known, Leds, SensorFacts};
 
 /// Entries of a certificate as written.
 type WrittenCertificate = Spanned<BTreeMap<Spanned<String>, Value>>;
@@ -30,6 +30,8 @@ pub(super) struct WrittenSensor {
     gel: String,
     opaque: Known<bool>,
     presses_since_gel: Option<u32>,
+    #[serde(default)]
+    leds: Leds,
     certificate: Option<WrittenCertificate>,
 }
 
@@ -41,6 +43,7 @@ impl WrittenSensor {
             .with_gel(&self.gel)
             .with_presses_since_gel(self.presses_since_gel);
         facts.opaque = self.opaque;
+        facts.leds = self.leds;
         facts
     }
 

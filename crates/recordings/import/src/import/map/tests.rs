@@ -89,6 +89,16 @@ fn each_mistake_names_its_line_and_what_is_accepted() {
             "true, false or \"unknown\"",
         ),
         (
+            "opaque = \"unknown\"",
+            "opaque = true\nleds = { red = \"up\" }",
+            "line 20: unknown variant `up`, expected one of `left`, `right`, `top`, `bottom`",
+        ),
+        (
+            "opaque = \"unknown\"",
+            "opaque = true\nleds = { amber = \"left\" }",
+            "line 20: `amber`: unknown key; known here: red, green, blue",
+        ),
+        (
             "column = \"file\"",
             "colunm = \"file\"",
             "line 4: `colunm`: unknown key, did you mean `column`?",
