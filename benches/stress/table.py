@@ -130,7 +130,7 @@ def main():
             print(f"| `{fault}` | {' | '.join(row)} |")
         print()
     above = f"Stimulus greater than at the next lower severity: {ordered} of {stimuli}."
-    print(f"{above} Degradation not smaller than there, within intervals: {growing} of {degradations}.")
+    print(f"{above} Degradation at least as great as at the next lower severity, within intervals: {growing} of {degradations}.")
     count = len(seconds) // len(MODELS)
     print(f"Faults that double the error of {CHANNEL} while check finds nothing, with the number of recordings of {count} and the greatest stimulus:")
     for model in MODELS:
