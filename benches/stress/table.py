@@ -141,7 +141,7 @@ def main():
             print(f"| `{fault}` | {' | '.join(row)} |")
         print()
     above = f"Stimulus greater than at the next lower severity: {counts(ordered)}."
-    print(f"{above} Degradation not smaller than there, within intervals: {counts(growing)}.")
+    print(f"{above} Degradation at least as great as at the next lower severity, within intervals: {counts(growing)}.")
     print()
     count = len(seconds) // len(MODELS)
     print(f"Faults that double the error of {CHANNEL} while check finds nothing, with the number of such recordings of {count} and the greatest stimulus:")

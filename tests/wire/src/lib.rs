@@ -1,11 +1,11 @@
 //! Bench behind sockets: the simulated gel of `taceva-sim` in real time, served by emulated devices.
 //!
-//! A client sees a moving robot, a streaming transducer and a streaming camera, each with the protocol of a real device. All act on one
-//! simulated gel with known truth. Faults can be injected on each link at run time. Every server listens on loopback only, or is a
+//! A client sees a moving robot, a streaming transducer and a streaming camera, each with the protocol of a real device. All three act
+//! on one simulated gel with known truth. Faults can be injected on each link at run time. Every server listens on loopback only, or is a
 //! pseudo-terminal.
 //!
-//! The emulators are **no** test of the devices: emulated protocols and drivers share one reading of the documents. Clients of vendors and
-//! others check the protocols independently, if they are installed.
+//! The emulators are **no** test of the devices: emulators and drivers share one interpretation of the documents. Clients of
+//! vendors and others, if installed, check the protocols independently.
 //!
 //! ```
 //! use std::net::TcpStream;
