@@ -18,9 +18,12 @@ const LOOK: Duration = Duration::from_millis(10);
 
 /// Message for an error of an open device, with its remedy.
 pub(super) fn without_answer(error: DriverError) -> String {
-    format!(
-        "{error}; check its cable and power, and whether another program uses it, then run `taceva rig check` again"
-    )
+    let remedy = match error.kind() {
+        // The device answers, and its message names the remedy.
+        ErrorKind::DeviceFault => "",
+        _ => " check its cable and power, and whether another program uses it,",
+    };
+    format!("{error};{remedy} then run `taceva rig check` again")
 }
 
 /// Calls `hear` repeatedly until the measurement ends.
