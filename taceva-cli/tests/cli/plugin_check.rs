@@ -71,6 +71,34 @@ fn checks_are_reported_as_a_runner_of_tests_does() {
 }
 
 #[test]
+fn a_new_plugin_in_c_is_built_by_make_and_passes_its_checks() {
+    for tool in ["cc", "make"] {
+        if let Err(error) = Command::new(tool).arg("--version").output() {
+            skip(Need::CCompiler, format!("`{tool}`: {error}"));
+            return;
+        }
+    }
+    let bench = Bench::new();
+    bench.ok("plugin new sensor my-eye --language c");
+    let made = Command::new("make")
+        .current_dir(bench.path("my-eye"))
+        .output();
+    let made = made.expect("it was asked for its version");
+    let said = String::from_utf8_lossy(&made.stderr);
+    assert!(made.status.success(), "{said}");
+    let only = "library/,driver/opens,sensor/gives,sensor/stamps-in-order";
+    let checked = bench.ok(&format!(
+        "plugin check org.example.my-eye --plugin-dir my-eye --only {only}"
+    ));
+    assert!(
+        checked.contains("sensor/gives-the-frames-it-says"),
+        "{checked}"
+    );
+    let listed = bench.ok("devices --plugin-dir my-eye");
+    assert!(listed.contains("org.example.my-eye/my-eye"), "{listed}");
+}
+
+#[test]
 fn a_failed_check_is_exit_code_1_and_says_why() {
     let Some(bench) = with_plugin(&["FORCE=NAN"]) else {
         return;
