@@ -19,7 +19,8 @@ const JUMP_S: f64 = 60.0;
 /// Checks the delays and stamps of the samples of one device.
 ///
 /// A sample is late if the calls for this sample took more than ten periods of the declared rate and more than 50 ms. Ten consecutive late samples
-/// are an error, and so is a stamp that jumps by more than a minute. A sample from a queue may be old.
+/// are an error, and so is a stamp that jumps by more than a minute. A sample from a queue may be old. Stamps in another unit are an error
+/// [if wanted](SampleTiming::with_unit_check).
 ///
 /// ```
 /// use std::time::{Duration, Instant};

@@ -87,3 +87,20 @@ pub(super) fn listen_to_sensor(sensor: &mut dyn Sensor) -> Result<Stream, String
         .and_then(|heard| stopped.map(|()| heard))
         .map_err(without_answer)
 }
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::DriverKey;
+
+    use super::*;
+
+    #[test]
+    fn a_fault_that_a_device_states_is_not_blamed_on_its_cable() {
+        let key = DriverKey::fixed("test/force");
+        let said = |kind| without_answer(DriverError::new(kind, &key, "read the force"));
+        assert!(said(ErrorKind::Disconnected).contains("check its cable"));
+        let fault = said(ErrorKind::DeviceFault);
+        assert!(!fault.contains("cable"), "{fault}");
+        assert!(fault.contains("run `taceva rig check` again"), "{fault}");
+    }
+}
