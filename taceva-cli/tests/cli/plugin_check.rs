@@ -71,6 +71,38 @@ fn checks_are_reported_as_a_runner_of_tests_does() {
 }
 
 #[test]
+fn stamps_of_a_real_plugin_in_microseconds_are_refused_by_rig_check_and_capture() {
+    let real = [
+        "EYE_SOURCE=\"real\"",
+        "WRIST_SOURCE=\"real\"",
+        "UNIT_NS=1000",
+    ];
+    let Some(bench) = with_plugin(&real) else {
+        return;
+    };
+    let path = bench.path("plugins/fixture/plugin.toml");
+    let mut manifest = fs::read_to_string(path).expect("written");
+    for title in ["an eye, by the manifest: words may differ", "wrist"] {
+        let of = |source: &str| format!("title = \"{title}\"\nsource = \"{source}\"");
+        manifest = manifest.replace(&of("simulated"), &of("real"));
+    }
+    bench.write("plugins/fixture/plugin.toml", &manifest);
+    bench.write(
+        "first.toml",
+        "rig_version = 1\n[force]\ndriver = \"org.example.fixture/wrist\"\naxes = [\"x\", \"y\", \"z\"]\n",
+    );
+    let unit = "they are probably microseconds where nanoseconds are expected";
+    let ran = bench.run("rig check first.toml --plugin-dir plugins");
+    assert_eq!(ran.code, 1, "{}{}", ran.out, ran.err);
+    assert!(ran.out.contains(unit), "{}", ran.out);
+    let ran = bench.run(
+        "capture out --sensor org.example.fixture/eye --frames 100000000 --plugin-dir plugins",
+    );
+    assert_eq!(ran.code, 4, "{}", ran.err);
+    assert!(ran.err.contains(unit), "{}", ran.err);
+}
+
+#[test]
 fn a_new_plugin_in_c_is_built_by_make_and_passes_its_checks() {
     for tool in ["cc", "make"] {
         if let Err(error) = Command::new(tool).arg("--version").output() {
