@@ -1,4 +1,4 @@
-//! Lists the sources of the crates for Rust plugins, and the headers for C plugins, so they can be embedded.
+//! Lists the sources of the crates for Rust plugins, and the headers and the example for C plugins, so they can be embedded.
 //!
 //! `vendor/` contains links to these files. `cargo package` replaces the links by their targets, so the published crate is complete. A checkout
 //! without symbolic links reads the files from the workspace.
@@ -42,16 +42,28 @@ fn main() -> io::Result<()> {
     let (mut files, mut headers) = (Vec::new(), String::new());
     walk(&folder, &mut files)?;
     list("include", &folder, files, &mut headers)?;
-    fs::write(out.join("headers.rs"), format!("&[\n{headers}]\n"))
+    fs::write(out.join("headers.rs"), format!("&[\n{headers}]\n"))?;
+
+    let packed = here.join("vendor/c-example");
+    let folder = if packed.join("src").is_dir() {
+        packed
+    } else {
+        here.join("../c-example")
+    };
+    let (mut files, mut example) = (vec![folder.join("plugin.toml")], String::new());
+    walk(&folder.join("src"), &mut files)?;
+    list("", &folder, files, &mut example)?;
+    fs::write(out.join("example.rs"), format!("&[\n{example}]\n"))
 }
 
-/// Writes one line per file: its path in the plugin, and its content.
+/// Writes one line per file: its path in the plugin, below `name` unless it is empty, and its content.
 fn list(name: &str, folder: &Path, mut files: Vec<PathBuf>, into: &mut String) -> io::Result<()> {
     files.sort();
     for file in files {
         let below = file.strip_prefix(folder).map_err(io::Error::other)?;
         let below = below.to_str().ok_or(io::ErrorKind::InvalidData)?;
         let place = format!("{name}/{}", below.replace('\\', "/"));
+        let place = place.trim_start_matches('/');
         writeln!(into, "    ({place:?}, include_str!({file:?})),").map_err(io::Error::other)?;
     }
     Ok(())

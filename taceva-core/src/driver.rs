@@ -38,6 +38,7 @@ mod robot_watch;
 mod sample_timing;
 mod sensor;
 mod speed;
+mod stamp_rate;
 
 pub use bench::SimulatedBench;
 pub use changer::Changer;
@@ -58,3 +59,4 @@ pub use robot_watch::RobotWatch;
 pub use sample_timing::{SampleTiming, TimingError};
 pub use sensor::Sensor;
 pub use speed::{Speed, SpeedError};
+pub use stamp_rate::StampRate;

@@ -1,5 +1,7 @@
 //! Points, rotations and poses in the sensor's frame.
 
+use std::fmt;
+
 use crate::quantity::{Degree, Millimetre};
 
 /// A point in the sensor's frame: x and y along the gel, z into the gel. A plain value, which gets no further fields.
@@ -8,6 +10,7 @@ use crate::quantity::{Degree, Millimetre};
 /// use taceva_core::{Millimetre, Point};
 /// let pressed = Point { z: Millimetre(0.5), ..Point::default() };
 /// assert_eq!((pressed.x, pressed.z), (Millimetre(0.0), Millimetre(0.5)));
+/// assert_eq!(pressed.to_string(), "(0, 0, 0.5) mm");
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Point {
@@ -25,6 +28,7 @@ pub struct Point {
 /// use taceva_core::{Degree, Rotation};
 /// let turned = Rotation { z: Degree(90.0), ..Rotation::default() };
 /// assert_eq!(turned.z, Degree(90.0));
+/// assert_eq!(turned.to_string(), "(0, 0, 90) deg");
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rotation {
@@ -43,6 +47,7 @@ pub struct Rotation {
 /// let position = Point { z: Millimetre(0.5), ..Point::default() };
 /// let pose = Pose { position, ..Pose::default() };
 /// assert_eq!(pose.on_grid(), pose);
+/// assert_eq!(pose.to_string(), "(0, 0, 0.5) mm turned by (0, 0, 0) deg");
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose {
@@ -50,6 +55,26 @@ pub struct Pose {
     pub position: Point,
     /// Rotation of the tool.
     pub rotation: Rotation,
+}
+
+impl fmt::Display for Point {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Point { x, y, z } = self;
+        write!(f, "({}, {}, {}) mm", x.0, y.0, z.0)
+    }
+}
+
+impl fmt::Display for Rotation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Rotation { x, y, z } = self;
+        write!(f, "({}, {}, {}) deg", x.0, y.0, z.0)
+    }
+}
+
+impl fmt::Display for Pose {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} turned by {}", self.position, self.rotation)
+    }
 }
 
 impl Pose {

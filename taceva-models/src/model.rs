@@ -80,7 +80,7 @@ impl Model {
         let shape = input.features.shape();
         if input.training.features.shape() != shape {
             return Err(invalid(format!(
-                "training features of shape {:?}, expected {:?}",
+                "training features of shape {}, expected {}",
                 input.training.features.shape(),
                 shape
             )));
@@ -326,7 +326,7 @@ impl Model {
         let (found, expected) = (features.shape(), self.card.features.shape());
         if found != expected {
             return Err(invalid(format!(
-                "signals of shape {found:?}, expected {expected:?}"
+                "signals of shape {found}, expected {expected}"
             )));
         }
         Ok(Some(divided(features, spread)))

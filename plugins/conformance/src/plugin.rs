@@ -6,6 +6,7 @@
 
 mod attempt;
 mod changer_table;
+mod clock;
 mod driver;
 mod estimator;
 mod hangs;
@@ -122,6 +123,7 @@ pub fn checks() -> Vec<Check> {
             robot_table::CHECKS,
         ),
         of_kind(DriverKind::Force, force::PROMISES, Test::Force, &[]),
+        clock::CHECKS.to_vec(),
         of_kind(
             DriverKind::Lighting,
             lighting::PROMISES,

@@ -52,7 +52,7 @@ fn poses(tried: &Subject<'_>) -> Result<(), Unmet> {
     let _ = tried.at_once("a pose without time", || robot.pose(Deadline::PASSED))?;
     match facts(tried)?.workspace {
         Some(workspace) => expect(workspace.contains(&first.position), || {
-            format!("its position {:?} is outside its workspace", first.position)
+            format!("its position {} is outside its workspace", first.position)
         }),
         None => Ok(()),
     }
@@ -88,7 +88,7 @@ fn refuses_not_finite(tried: &Subject<'_>) -> Result<(), Unmet> {
             spoil(&mut target, value);
             let moved = robot.move_to(target, course.speed, tried.trial.deadline);
             refused(
-                &format!("moving to {target:?}"),
+                &format!("moving to {target}"),
                 moved,
                 &[ErrorKind::InvalidArgument],
             )?;
@@ -319,8 +319,8 @@ impl Course {
             .filter(|workspace| !workspace.contains(&away.position))
         {
             return Err(broken(format!(
-                "{} of travel away from {:?} leaves the workspace, whose lower corner is {:?}",
-                tried.trial.travel, home.position, workspace.least
+                "{} of travel away from {} leaves the workspace {workspace}",
+                tried.trial.travel, home.position
             )));
         }
         let greatest = facts.speed_max.map_or(UNHURRIED, Speed::mm_per_s);
@@ -364,6 +364,6 @@ fn near(tried: &Subject<'_>, found: &Pose, expected: &Pose) -> Result<(), Unmet>
         .iter()
         .all(|difference| difference.abs() <= tolerance_mm);
     expect(is_near, || {
-        format!("its pose is {found:?}, expected {expected:?} within {tolerance_mm} mm")
+        format!("its position is {found}, expected {expected} within {tolerance_mm} mm")
     })
 }

@@ -1,8 +1,8 @@
 //! Comparison of two descriptions of one driver.
 
-use std::fmt::Debug;
+use std::fmt::Display;
 
-use taceva_core::{ArgSpec, Args, Descriptor, Facts, Presence};
+use taceva_core::{ArgSpec, Args, Descriptor, Facts, Footprint, Outline, Presence};
 
 /// True if `args` set an argument of `descriptor` that may change its facts.
 pub(crate) fn changes_facts(descriptor: &Descriptor, args: &Args) -> bool {
@@ -71,42 +71,118 @@ fn declared(spec: &ArgSpec) -> String {
     format!("{}, {presence}{changes}", spec.expected())
 }
 
-fn differ<T: PartialEq + Debug>(name: &str, [manifest, library]: [T; 2]) -> Option<[String; 3]> {
-    let shown = |value: T| format!("{value:?}");
-    (manifest != library).then(|| [name.to_owned(), shown(manifest), shown(library)])
+fn differ<T: PartialEq + Display>(name: &str, [manifest, library]: [T; 2]) -> Option<[String; 3]> {
+    (manifest != library).then(|| [name.to_owned(), manifest.to_string(), library.to_string()])
 }
 
 fn facts(manifest: &Facts, library: &Facts) -> Option<[String; 3]> {
-    match (manifest, library) {
-        (Facts::Sensor(one), Facts::Sensor(other)) => differ("frame", [one.frame, other.frame])
-            .or_else(|| differ("rate_hz", [one.rate, other.rate]))
-            .or_else(|| differ("gel.opaque", [one.opaque, other.opaque]))
-            .or_else(|| differ("gel.markers", [one.markers, other.markers]))
-            .or_else(|| {
-                let thickness = [one.gel_thickness, other.gel_thickness];
-                differ("gel.thickness_mm", thickness)
-            })
-            .or_else(|| differ("scenes", [&one.scenes, &other.scenes]))
-            .or_else(|| differ("footprint", [one.footprint, other.footprint]))
-            .or_else(|| differ("limits.Pz_max_mm", [one.depth_max, other.depth_max]))
-            .or_else(|| differ("limits.Fz_max_N", [one.force_max, other.force_max]))
-            .or_else(|| differ("facts", [one, other])),
-        (Facts::Force(one), Facts::Force(other)) => differ("axes", [one.axes, other.axes])
-            .or_else(|| differ("rate_hz", [one.rate, other.rate]))
-            .or_else(|| differ("limits.Fz_max_N", [one.force_max, other.force_max]))
-            .or_else(|| differ("noise_N", [one.noise, other.noise]))
-            .or_else(|| differ("resolution_N", [one.resolution, other.resolution]))
-            .or_else(|| differ("numbered", [one.numbered, other.numbered]))
-            .or_else(|| differ("tare", [one.tare, other.tare]))
-            .or_else(|| differ("facts", [one, other])),
-        (one, other) => differ("facts", [one, other]),
+    if manifest == library {
+        return None;
+    }
+    let [promised, said] = [manifest, library].map(stated);
+    let mut pairs = promised.into_iter().zip(said);
+    let first = pairs.find(|(promised, said)| promised != said);
+    // Facts of later versions have no row.
+    let [promised, said] = first.map_or_else(
+        || ["facts", "other facts"].map(|words| Fact::new(words, words.to_owned())),
+        |(promised, said)| [promised, said],
+    );
+    Some([promised.key.to_owned(), promised.words, said.words])
+}
+
+/// Fact with its key in a manifest, in words.
+#[derive(Clone, PartialEq)]
+struct Fact {
+    key: &'static str,
+    words: String,
+}
+
+impl Fact {
+    fn new(key: &'static str, words: String) -> Fact {
+        Fact { key, words }
+    }
+
+    fn of<T: Display>(key: &'static str, value: Option<T>) -> Fact {
+        let words = value.map_or_else(|| "nothing".to_owned(), |value| value.to_string());
+        Fact::new(key, words)
+    }
+
+    fn list(key: &'static str, values: &[String]) -> Fact {
+        Fact::of(key, (!values.is_empty()).then(|| values.join(", ")))
+    }
+}
+
+/// All facts of a device, in the order of a manifest.
+fn stated(facts: &Facts) -> Vec<Fact> {
+    let kind = Fact::new("kind", facts.kind().to_string());
+    let facts = match facts {
+        Facts::Sensor(facts) => vec![
+            Fact::of("frame", facts.frame),
+            Fact::of("rate_hz", facts.rate),
+            Fact::of("gel.opaque", facts.opaque),
+            Fact::of("gel.markers", facts.markers),
+            Fact::of("gel.thickness_mm", facts.gel_thickness),
+            Fact::list("scenes", &facts.scenes),
+            Fact::of("footprint", facts.footprint.map(outlined)),
+            Fact::of("limits.Pz_max_mm", facts.depth_max),
+            Fact::of("limits.Fz_max_N", facts.force_max),
+            Fact::of(
+                "camera",
+                facts
+                    .camera
+                    .map(|[width, height]| format!("{width}×{height}")),
+            ),
+            Fact::of("field_of_view_mm2", facts.field_of_view_mm2),
+            Fact::of("latency_ms", facts.latency_ms),
+        ],
+        Facts::Robot(facts) => vec![
+            Fact::of("workspace", facts.workspace),
+            Fact::of("limits.speed_max_mm_s", facts.speed_max),
+            Fact::of("repeatability_mm", facts.repeatability),
+            Fact::of("pose_noise_mm", facts.pose_noise),
+            Fact::of("deceleration_mm_s2", facts.deceleration_mm_s2),
+            Fact::of("stop_ms", facts.stop_ms),
+            Fact::of("latency_ms", facts.latency_ms),
+            Fact::new("guarded_motion", facts.guarded_motion.to_string()),
+        ],
+        Facts::Force(facts) => vec![
+            Fact::new("axes", facts.axes.to_string()),
+            Fact::of("rate_hz", facts.rate),
+            Fact::of("limits.Fz_max_N", facts.force_max),
+            Fact::of("noise_N", facts.noise),
+            Fact::of("resolution_N", facts.resolution),
+            Fact::of("latency_ms", facts.latency_ms),
+            Fact::new("numbered", facts.numbered.to_string()),
+            Fact::new("tare", facts.tare.to_string()),
+        ],
+        Facts::Lighting(facts) => vec![Fact::list("scenes", &facts.scenes)],
+        Facts::Changer(facts) => vec![Fact::list("holds", &facts.holds)],
+        _ => Vec::new(),
+    };
+    [vec![kind], facts].concat()
+}
+
+fn outlined(footprint: Footprint) -> String {
+    let outline = match footprint.outline() {
+        Outline::Disc { radius } => format!("a disc with a radius of {radius}"),
+        Outline::Rectangle { half_x, half_y } => {
+            format!("a rectangle with half sides of {half_x} and {half_y}")
+        }
+        _ => "another outline".to_owned(),
+    };
+    match footprint.depth_max() {
+        Some(depth) => format!("{outline}, indented by at most {depth}"),
+        None => outline,
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use taceva_core::{DescriptorSpec, DriverKey, DriverSource, Hertz, SensorFacts};
+    use taceva_core::{
+        DescriptorSpec, DriverKey, DriverSource, FrameInfo, Hertz, LightingFacts, PixelFormat,
+        RobotFacts, SensorFacts, Workspace,
+    };
 
     fn sensor(rate_hz: f64, title: &str) -> Descriptor {
         let facts = SensorFacts::default().with_rate(Hertz(rate_hz));
@@ -169,6 +245,42 @@ mod tests {
             ])
         );
         assert_eq!(found(&[strength()], &[strength().help("other")]), None);
+    }
+
+    #[test]
+    fn facts_that_differ_are_stated_in_words_and_not_as_code() {
+        let frame = FrameInfo {
+            width: 320,
+            height: 240,
+            format: PixelFormat::Gray8,
+        };
+        let sensor = |frame: Option<FrameInfo>| {
+            Facts::Sensor(Box::new(SensorFacts::default().with_frame(frame)))
+        };
+        let still = Facts::Robot(RobotFacts::default());
+        let workspace = Workspace {
+            least: Default::default(),
+            greatest: Default::default(),
+        };
+        let moving = Facts::Robot(RobotFacts::default().with_workspace(workspace));
+        let dark = LightingFacts::default().with_scenes(vec!["dark".to_owned()]);
+        for (manifest, library, expected) in [
+            (
+                sensor(Some(frame)),
+                sensor(None),
+                ["frame", "320×240 gray8", "nothing"],
+            ),
+            (
+                moving,
+                still.clone(),
+                ["workspace", "from (0, 0, 0) mm to (0, 0, 0) mm", "nothing"],
+            ),
+            (still, Facts::Lighting(dark), ["kind", "robot", "lighting"]),
+        ] {
+            let found = facts(&manifest, &library);
+            assert_eq!(found, Some(expected.map(str::to_owned)));
+            assert_eq!(facts(&manifest, &manifest), None);
+        }
     }
 
     #[test]

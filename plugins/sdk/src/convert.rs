@@ -36,9 +36,10 @@ pub(crate) fn motion(motion: &Motion) -> Result<(Pose, Speed), Failure> {
         quaternion: [qw, qx, qy, qz],
     };
     let target = target.to_pose().ok_or_else(|| {
-        let message =
-            format!("the target is {target:?}, expected finite numbers and a unit quaternion");
-        Failure::argument(message)
+        Failure::argument(format!(
+            "the target is at {:?} m turned by {:?}, expected finite numbers and a unit quaternion",
+            target.position_m, target.quaternion
+        ))
     })?;
     let speed = Speed::from_metres_per_second(motion.speed_m_per_s)
         .map_err(|error| Failure::argument(error.to_string()))?;
@@ -75,9 +76,12 @@ pub(crate) fn wrench(wrench: &Wrench) -> Result<AbiWrench, Failure> {
 /// Converts a stamp reported by the device.
 pub(crate) fn stamp(stamp: &Stamp) -> Result<AbiStamp, Failure> {
     let is_time = |time_s: f64| time_s.is_finite() && time_s >= 0.0;
-    if !is_time(stamp.valid_s) || !stamp.received_s.is_none_or(is_time) {
-        let message = format!("the stamp is {stamp:?}, expected finite times of at least 0 s");
-        return Err(Failure::device(message));
+    let valid_s = stamp.valid_s;
+    let received_s = stamp.received_s.unwrap_or(valid_s);
+    if !is_time(valid_s) || !is_time(received_s) {
+        return Err(Failure::device(format!(
+            "the stamp is {valid_s} s, received at {received_s} s, expected finite times of at least 0 s"
+        )));
     }
     Ok(AbiStamp {
         valid_ns: nanoseconds(stamp.valid()),

@@ -29,7 +29,7 @@ pub(crate) enum Plugin {
     List(PluginList),
     /// Print the manifest of a plugin; runs none of its code
     Info(PluginInfo),
-    /// Create a plugin in Rust or Python: a working project with one driver to be replaced
+    /// Create a plugin in Rust, Python or C: a working project with one driver to be replaced
     New(PluginNew),
     /// Write the headers for plugins in C and C++
     Headers(PluginHeaders),
@@ -89,6 +89,7 @@ pub(crate) enum NewLibrary {
 pub(crate) enum Language {
     Rust,
     Python,
+    C,
 }
 
 /// Kind of a new plugin.

@@ -117,7 +117,7 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
                 context.say(format_args!("{words}"));
             }
             CaptureStage::Recording(state) => {
-                if !std::mem::replace(&mut is_begun, true) {
+                if !std::mem::replace(&mut is_begun, true) && !is_complete(args, &state) {
                     stage("recording: press");
                     context.say(format_args!("{}", call_to_press(args)));
                 }
@@ -185,6 +185,14 @@ pub(super) fn open(args: &LiveArgs, context: &Context) -> anyhow::Result<(LiveSp
         stderr::say(format_args!("warning: {warning}"));
     }
     Ok((spec, live))
+}
+
+/// True if the frames in `state` are all that `args` asks for, so that no frame is awaited.
+fn is_complete(args: &Capture, state: &CaptureState) -> bool {
+    // NaN for a single frame, which takes no time.
+    let passed_s = state.frames.saturating_sub(1) as f64 / state.rate_hz;
+    let has_lasted = args.lasts.is_some_and(|of| passed_s >= of.as_secs_f64());
+    has_lasted || args.frames.is_some_and(|frames| state.frames >= frames)
 }
 
 /// Line for the start of a recording, which states how to end it: `press; Ctrl-C ends the capture, or 20 frames`.

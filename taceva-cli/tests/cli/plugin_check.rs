@@ -71,6 +71,66 @@ fn checks_are_reported_as_a_runner_of_tests_does() {
 }
 
 #[test]
+fn stamps_of_a_real_plugin_in_microseconds_are_refused_by_rig_check_and_capture() {
+    let real = [
+        "EYE_SOURCE=\"real\"",
+        "WRIST_SOURCE=\"real\"",
+        "UNIT_NS=1000",
+    ];
+    let Some(bench) = with_plugin(&real) else {
+        return;
+    };
+    let path = bench.path("plugins/fixture/plugin.toml");
+    let mut manifest = fs::read_to_string(path).expect("written");
+    for title in ["an eye, by the manifest: words may differ", "wrist"] {
+        let of = |source: &str| format!("title = \"{title}\"\nsource = \"{source}\"");
+        manifest = manifest.replace(&of("simulated"), &of("real"));
+    }
+    bench.write("plugins/fixture/plugin.toml", &manifest);
+    bench.write(
+        "first.toml",
+        "rig_version = 1\n[force]\ndriver = \"org.example.fixture/wrist\"\naxes = [\"x\", \"y\", \"z\"]\n",
+    );
+    let unit = "they are probably microseconds where nanoseconds are expected";
+    let ran = bench.run("rig check first.toml --plugin-dir plugins");
+    assert_eq!(ran.code, 1, "{}{}", ran.out, ran.err);
+    assert!(ran.out.contains(unit), "{}", ran.out);
+    let ran = bench.run(
+        "capture out --sensor org.example.fixture/eye --frames 100000000 --plugin-dir plugins",
+    );
+    assert_eq!(ran.code, 4, "{}", ran.err);
+    assert!(ran.err.contains(unit), "{}", ran.err);
+}
+
+#[test]
+fn a_new_plugin_in_c_is_built_by_make_and_passes_its_checks() {
+    for tool in ["cc", "make"] {
+        if let Err(error) = Command::new(tool).arg("--version").output() {
+            skip(Need::CCompiler, format!("`{tool}`: {error}"));
+            return;
+        }
+    }
+    let bench = Bench::new();
+    bench.ok("plugin new sensor my-eye --language c");
+    let made = Command::new("make")
+        .current_dir(bench.path("my-eye"))
+        .output();
+    let made = made.expect("it was asked for its version");
+    let said = String::from_utf8_lossy(&made.stderr);
+    assert!(made.status.success(), "{said}");
+    let only = "library/,driver/opens,sensor/gives,sensor/stamps-in-order";
+    let checked = bench.ok(&format!(
+        "plugin check org.example.my-eye --plugin-dir my-eye --only {only}"
+    ));
+    assert!(
+        checked.contains("sensor/gives-the-frames-it-says"),
+        "{checked}"
+    );
+    let listed = bench.ok("devices --plugin-dir my-eye");
+    assert!(listed.contains("org.example.my-eye/my-eye"), "{listed}");
+}
+
+#[test]
 fn a_failed_check_is_exit_code_1_and_says_why() {
     let Some(bench) = with_plugin(&["FORCE=NAN"]) else {
         return;

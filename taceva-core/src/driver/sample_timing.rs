@@ -3,6 +3,7 @@
 use std::fmt;
 use std::time::{Duration, Instant};
 
+use super::stamp_rate::{StampRate, StampWindows};
 use crate::quantity::Hertz;
 use crate::stamp::Stamp;
 
@@ -18,7 +19,8 @@ const JUMP_S: f64 = 60.0;
 /// Checks the delays and stamps of the samples of one device.
 ///
 /// A sample is late if the calls for this sample took more than ten periods of the declared rate and more than 50 ms. Ten consecutive late samples
-/// are an error, and so is a stamp that jumps by more than a minute. A sample from a queue may be old.
+/// are an error, and so is a stamp that jumps by more than a minute. A sample from a queue may be old. Stamps in another unit are an error
+/// [if wanted](SampleTiming::with_unit_check).
 ///
 /// ```
 /// use std::time::{Duration, Instant};
@@ -40,6 +42,8 @@ pub struct SampleTiming {
     waited: Duration,
     late: u32,
     last: Option<Last>,
+    /// Comparison of the stamps with the clock of the host; `None` if it is not wanted.
+    windows: Option<StampWindows>,
 }
 
 /// The last accepted sample.
@@ -61,6 +65,16 @@ impl SampleTiming {
             waited: Duration::ZERO,
             late: 0,
             last: None,
+            windows: None,
+        }
+    }
+
+    /// Also refuses stamps that advance by less than a thirtieth of the time of the calls: they are in another unit. For a real device.
+    #[must_use]
+    pub fn with_unit_check(self) -> SampleTiming {
+        SampleTiming {
+            windows: Some(StampWindows::default()),
+            ..self
         }
     }
 
@@ -80,14 +94,20 @@ impl SampleTiming {
     /// Checks a sample that arrived at `now`.
     ///
     /// # Errors
-    /// [`TimingError`] for the tenth consecutive late sample or for a stamp that jumps.
+    /// [`TimingError`] for the tenth consecutive late sample, for a stamp that jumps, or for stamps in another unit.
     pub fn sample(&mut self, now: Instant, stamp: Stamp) -> Result<(), TimingError> {
         let took = std::mem::take(&mut self.waited);
         if !self.is_checked {
             return Ok(());
         }
-        self.check_rate(took.as_secs_f64())?;
-        self.check_stamp(now, stamp.valid_s)
+        let took_s = took.as_secs_f64();
+        self.check_rate(took_s)?;
+        self.check_stamp(now, stamp.valid_s)?;
+        let windows = self.windows.as_mut();
+        match windows.and_then(|windows| windows.add(stamp.valid_s, took_s)) {
+            Some(rate) => Err(TimingError::Unit { rate }),
+            None => Ok(()),
+        }
     }
 
     fn check_rate(&mut self, took_s: f64) -> Result<(), TimingError> {
@@ -136,12 +156,12 @@ impl SampleTiming {
     }
 }
 
-/// A device whose samples are late, or whose stamps jump.
+/// A device whose samples are late, or whose stamps jump or are in another unit.
 ///
 /// ```
 /// use taceva_core::TimingError;
 /// let jump = TimingError::Jump { jump_s: -3600.0 };
-/// assert_eq!(jump.to_string(), "the stamps jump by -3600.0 s: check the clock of the device");
+/// assert!(jump.to_string().starts_with("the stamps jump by -3600.0 s: check the clock of the device"));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -162,6 +182,11 @@ pub enum TimingError {
         /// Size of the jump, s; negative for a jump back in time.
         jump_s: f64,
     },
+    /// Stamps that advance far more slowly than the clock of the host.
+    Unit {
+        /// Rate of the stamps.
+        rate: StampRate,
+    },
 }
 
 impl fmt::Display for TimingError {
@@ -178,8 +203,9 @@ impl fmt::Display for TimingError {
             ),
             TimingError::Jump { jump_s } => write!(
                 f,
-                "the stamps jump by {jump_s:.1} s: check the clock of the device"
+                "the stamps jump by {jump_s:.1} s: check the clock of the device and the unit of its stamps"
             ),
+            TimingError::Unit { rate } => write!(f, "{rate}"),
         }
     }
 }
@@ -275,6 +301,25 @@ mod tests {
         ] {
             let arrived = timing.sample(begun + arrival, Stamp::at(stamp));
             arrived.expect("in order, and never ahead");
+        }
+    }
+
+    #[test]
+    fn stamps_in_microseconds_are_refused_with_their_unit_if_units_are_checked() {
+        let stamped = |mut timing: SampleTiming, unit: u32| {
+            let begun = Instant::now();
+            (1..=100_u32).try_for_each(|number| {
+                timing.wait(PERIOD);
+                timing.sample(begun + PERIOD * number, Stamp::at(PERIOD * number / unit))
+            })
+        };
+        let checked = || at_100_hz().with_unit_check();
+        stamped(checked(), 1).expect("nanoseconds");
+        stamped(at_100_hz(), 1000).expect("not compared");
+        let refused = stamped(checked(), 1000).expect_err("microseconds");
+        let refused = refused.to_string();
+        for part in ["by 1.0e-3 s", "microseconds where nanoseconds are expected"] {
+            assert!(refused.contains(part), "{refused}");
         }
     }
 

@@ -1,5 +1,6 @@
 //! Features of samples: the numeric input of a model.
 
+use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -12,6 +13,7 @@ use crate::error::ErrorKind;
 /// use taceva_core::FeatureShape;
 /// let picture = FeatureShape { height: 32, width: 32, depth: 3 };
 /// assert_eq!((picture.len(), FeatureShape::flat(20).len()), (3072, 20));
+/// assert_eq!(picture.to_string(), "32×32×3");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct FeatureShape {
@@ -21,6 +23,12 @@ pub struct FeatureShape {
     pub width: usize,
     /// Numbers per pixel: 1 for gray and for a flat list, 3 for RGB.
     pub depth: usize,
+}
+
+impl fmt::Display for FeatureShape {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}×{}×{}", self.height, self.width, self.depth)
+    }
 }
 
 impl FeatureShape {

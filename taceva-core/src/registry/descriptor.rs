@@ -142,10 +142,7 @@ fn robot_fault(facts: &RobotFacts, source: DriverSource) -> Option<String> {
         .workspace
         .filter(|workspace| !workspace.contains(&workspace.least))
     {
-        return Some(format!(
-            "the workspace from {:?} to {:?} is empty",
-            workspace.least, workspace.greatest
-        ));
+        return Some(format!("the workspace {workspace} is empty"));
     }
     not_negative(&[
         ("repeatability", facts.repeatability.map(|spread| spread.0)),

@@ -64,7 +64,7 @@ impl SerialOptions {
         }
         if target.rotation != Rotation::default() {
             let why = format!(
-                "a rotation of {:?}, expected none: the machine has three axes",
+                "a rotation of {}, expected none: the machine has three axes",
                 target.rotation
             );
             return failed(ErrorKind::OutOfRange, why);

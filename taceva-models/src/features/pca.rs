@@ -134,7 +134,7 @@ impl Pca {
     pub fn transform(&self, features: &Features) -> Result<Features, ModelError> {
         if features.shape() != self.shape {
             return Err(invalid(format!(
-                "features of shape {:?}, expected {:?} for these principal components",
+                "features of shape {}, expected {} for these principal components",
                 features.shape(),
                 self.shape
             )));

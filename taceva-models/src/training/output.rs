@@ -14,7 +14,7 @@ pub(crate) fn check_call(
 ) -> Result<(), ModelError> {
     if features.shape() != shape {
         return Err(invalid(format!(
-            "features of shape {:?}, expected {shape:?}",
+            "features of shape {}, expected {shape}",
             features.shape()
         )));
     }

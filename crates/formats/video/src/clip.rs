@@ -73,7 +73,9 @@ pub enum Colours {
 ///     Picture::Deep { width, height, samples, .. } => samples.len() == (width * height) as usize,
 ///     _ => false,
 /// };
-/// assert!(whole(&Picture::Pixels { width: 2, height: 1, samples: vec![7, 9] }));
+/// let picture = Picture::Pixels { width: 2, height: 1, samples: vec![7, 9] };
+/// assert!(whole(&picture));
+/// assert_eq!(picture.to_string(), "a picture of 2×1 pixels of 8 bits");
 /// ```
 #[derive(Clone, PartialEq, Eq)]
 #[non_exhaustive]
@@ -114,17 +116,25 @@ impl Picture {
     }
 }
 
-impl std::fmt::Debug for Picture {
+impl std::fmt::Display for Picture {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Picture::Jpeg(bytes) => write!(f, "Jpeg({} bytes)", bytes.len()),
-            Picture::Pixels { width, height, .. } => write!(f, "Pixels({width}×{height})"),
+            Picture::Jpeg(bytes) => write!(f, "a JPEG file of {} bytes", bytes.len()),
+            Picture::Pixels { width, height, .. } => {
+                write!(f, "a picture of {width}×{height} pixels of 8 bits")
+            }
             Picture::Deep {
                 width,
                 height,
                 bits,
                 ..
-            } => write!(f, "Deep({width}×{height}, {bits} bits)"),
+            } => write!(f, "a picture of {width}×{height} pixels of {bits} bits"),
         }
+    }
+}
+
+impl std::fmt::Debug for Picture {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        std::fmt::Display::fmt(self, f)
     }
 }

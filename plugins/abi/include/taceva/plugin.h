@@ -126,7 +126,7 @@ typedef struct taceva_host {
   uint64_t (*now_ns)(void *context);                                                  /* [any] CLOCK_MONOTONIC */
 } taceva_host;
 
-/* ---- time of an observation, and of its reception ---- */
+/* ---- time of an observation, and of its reception, in ns; for a real device by the clock of `now_ns` ---- */
 
 typedef struct taceva_stamp {
   uint64_t valid_ns;

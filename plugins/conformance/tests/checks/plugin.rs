@@ -53,6 +53,8 @@ fn a_good_plugin_passes_every_check() {
         "library/needs-what-its-manifest-says",
         "library/unknown-rig-extension",
         "force/numbers-its-readings",
+        "sensor/stamps-by-the-clock",
+        "force/stamps-by-the-clock",
     ];
     assert_eq!(skipped, expected);
     assert!(results.len() > 100, "{} checks", results.len());
@@ -78,6 +80,10 @@ pub(crate) const TESTS: &[Test] = &[
     (
         "readings_with_one_number_are_found_frozen",
         readings_with_one_number_are_found_frozen,
+    ),
+    (
+        "stamps_of_a_real_device_in_another_unit_are_found_with_that_unit",
+        stamps_of_a_real_device_in_another_unit_are_found_with_that_unit,
     ),
     (
         "a_device_of_each_kind_in_cpp_keeps_every_promise",
@@ -206,6 +212,43 @@ fn readings_with_one_number_are_found_frozen() {
             (Outcome::Passed, None) => {}
             (Outcome::Failed(why), Some(words)) if why.contains(words) => {}
             (outcome, _) => panic!("{macros:?}: {outcome:?}"),
+        }
+    }
+}
+
+fn stamps_of_a_real_device_in_another_unit_are_found_with_that_unit() {
+    for (source, title, check) in [
+        (
+            "EYE_SOURCE=\"real\"",
+            "title = \"an eye, by the manifest: words may differ\"",
+            "sensor/stamps-by-the-clock",
+        ),
+        (
+            "WRIST_SOURCE=\"real\"",
+            "title = \"wrist\"",
+            "force/stamps-by-the-clock",
+        ),
+    ] {
+        for (unit, words) in [
+            ("UNIT_NS=1", None),
+            ("UNIT_NS=1000", Some("microseconds")),
+            ("UNIT_NS=1000000", Some("milliseconds")),
+        ] {
+            let Some(fixture) = Fixture::built(&[source, unit]) else {
+                return;
+            };
+            let [simulated, real] =
+                ["simulated", "real"].map(|source| format!("{title}\nsource = \"{source}\""));
+            let fixture = fixture.with_manifest(&simulated, &real);
+            let results = checked(&fixture, &[check]);
+            match (&results[0].outcome, words) {
+                (Outcome::Passed, None) => {}
+                (Outcome::Failed(why), Some(words)) => {
+                    let unit = format!("they are probably {words} where nanoseconds are expected");
+                    assert!(why.contains(&unit), "{unit}: {why}");
+                }
+                (outcome, _) => panic!("{check}, {unit}: {outcome:?}"),
+            }
         }
     }
 }

@@ -225,10 +225,7 @@ impl Halter {
             .map_err(|error| refused(ErrorKind::InvalidArgument, error.to_string()))?;
         let workspace = self.facts.workspace;
         if let Some(workspace) = workspace.filter(|within| !within.contains(&target.position)) {
-            let why = format!(
-                "{:?} is outside the workspace from {:?} to {:?}",
-                target.position, workspace.least, workspace.greatest
-            );
+            let why = format!("{} is outside the workspace {workspace}", target.position);
             return Err(refused(ErrorKind::OutOfRange, why));
         }
         if let Some(most) = self.facts.speed_max.filter(|most| speed > *most) {

@@ -32,11 +32,20 @@ pub(super) fn project(args: &PluginNew, context: &Context) -> anyhow::Result<u8>
     } else {
         Sources::Vendored
     };
-    let files = taceva_template::project(args.kind.into(), &args.name, sources);
+    let (files, command) = match args.language {
+        Language::C => (
+            taceva_template::c_project(args.kind.into(), &args.name),
+            "make",
+        ),
+        _ => (
+            taceva_template::project(args.kind.into(), &args.name, sources),
+            "cargo build --release",
+        ),
+    };
     let folder = Path::new(args.name.as_str());
     write_folder(folder, "", &files)?;
     context.say(format_args!(
-        "{}: build it with `cargo build --release`, then `taceva devices --plugin-dir {}`",
+        "{}: build it with `{command}`, then `taceva devices --plugin-dir {}`",
         shown(folder),
         shown(folder)
     ));

@@ -177,8 +177,8 @@ fn a_capture_says_what_ends_it() {
     for (name, end, said) in [
         (
             "frames",
-            "--frames 5",
-            "press; Ctrl-C ends the capture, or 5 frames",
+            "--frames 30",
+            "press; Ctrl-C ends the capture, or 30 frames",
         ),
         ("time", "--for 1s", "press; Ctrl-C ends the capture, or 1 s"),
     ] {
@@ -187,6 +187,15 @@ fn a_capture_says_what_ends_it() {
         ));
         assert!(ran.code == 0 && ran.err.contains(said), "{}", ran.err);
     }
+}
+
+#[test]
+fn a_capture_that_awaits_no_further_frame_does_not_call_to_press() {
+    let bench = Bench::new();
+    let ran = bench.run("capture single --sensor sim/gelsight:seed=3 --frames 1");
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(ran.err.contains("single: 1 frame"), "{}", ran.err);
+    assert!(!ran.err.contains("press; Ctrl-C"), "{}", ran.err);
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Workspace of a robot's tip.
 
+use std::fmt;
+
 use crate::geometry::Point;
 
 /// Box that contains all allowed positions of a tip, faces included, in the sensor's frame. This type gets no further field: two corners define a box.
@@ -9,6 +11,7 @@ use crate::geometry::Point;
 /// let corner = |side: f64| Point { x: Millimetre(side), y: Millimetre(side), z: Millimetre(side) };
 /// let workspace = Workspace { least: corner(-10.0), greatest: corner(10.0) };
 /// assert!(workspace.contains(&corner(10.0)) && !workspace.contains(&corner(10.5)));
+/// assert_eq!(workspace.to_string(), "from (-10, -10, -10) mm to (10, 10, 10) mm");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Workspace {
@@ -16,6 +19,12 @@ pub struct Workspace {
     pub least: Point,
     /// Corner with the greatest coordinates.
     pub greatest: Point,
+}
+
+impl fmt::Display for Workspace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "from {} to {}", self.least, self.greatest)
+    }
 }
 
 impl Workspace {

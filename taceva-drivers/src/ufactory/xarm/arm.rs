@@ -107,10 +107,7 @@ impl Arm {
         if let Some(workspace) = self.options.workspace
             && !workspace.contains(&target.position)
         {
-            let why = format!(
-                "{:?} is outside the workspace from {:?} to {:?}",
-                target.position, workspace.least, workspace.greatest
-            );
+            let why = format!("{} is outside the workspace {workspace}", target.position);
             return Err(failed(ErrorKind::OutOfRange, doing, why));
         }
         let most = self.options.speed_max;

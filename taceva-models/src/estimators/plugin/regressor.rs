@@ -45,7 +45,7 @@ impl PluginRegressor {
                 names.join(", ")
             };
             let why = format!(
-                "{}: its model gives {} from {:?}, expected {} from {shape:?}",
+                "{}: its model gives {} from {}, expected {} from {shape}",
                 card.key,
                 named(fitted.channels()),
                 fitted.shape(),

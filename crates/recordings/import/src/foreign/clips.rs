@@ -108,7 +108,7 @@ fn of_depth(picture: &taceva_video::Picture, depth: &DepthPixels) -> Result<Pict
     } = picture
     else {
         return Err(format!(
-            "{picture:?}, expected codes of 12 bits (gray12le) of a depth map: the clip was re-encoded, or another program wrote it"
+            "{picture}, expected codes of 12 bits (gray12le) of a depth map: the clip was re-encoded, or another program wrote it"
         ));
     };
     let pixels = depth.of(samples, *bits)?.into_iter();
@@ -151,7 +151,7 @@ fn kept(picture: taceva_video::Picture, format: PixelFormat) -> Result<Picture, 
             (width, height, PixelFormat::Gray16, bytes.collect())
         }
         other => {
-            return Err(format!("unknown kind of picture: {other:?}"));
+            return Err(format!("unknown kind of picture: {other}"));
         }
     };
     framed(

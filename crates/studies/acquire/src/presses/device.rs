@@ -59,7 +59,8 @@ where
     }
 }
 
-/// Timing checks of a real sensor or transducer; `None` for other devices. An emulated device delays its samples, so only its stamps are checked.
+/// Timing checks of a real sensor or transducer; `None` for other devices. An emulated device delays its samples, so only jumps of its stamps are
+/// checked.
 fn timing(descriptor: &Descriptor, is_emulated: bool) -> Option<SampleTiming> {
     let rate = match descriptor.facts() {
         Facts::Sensor(facts) => facts.rate,
@@ -67,7 +68,10 @@ fn timing(descriptor: &Descriptor, is_emulated: bool) -> Option<SampleTiming> {
         _ => return None,
     };
     let is_real = descriptor.source() == DriverSource::Real;
-    is_real.then(|| SampleTiming::of(rate.filter(|_| !is_emulated)))
+    is_real.then(|| match is_emulated {
+        true => SampleTiming::of(None),
+        false => SampleTiming::of(rate).with_unit_check(),
+    })
 }
 
 #[cfg(test)]
@@ -156,6 +160,24 @@ mod tests {
             self.frames += 1;
             let now = MonotonicClock.now();
             Ok(Stamp::at(if self.frames > 2 { now + HOUR } else { now }))
+        }
+    }
+
+    /// Test transducer at 25 Hz that stamps its readings in another unit than nanoseconds.
+    struct OfUnit {
+        nanoseconds: u64,
+    }
+
+    impl ForceTransducer for OfUnit {
+        fn axes(&self) -> Axes {
+            Axes::NORMAL
+        }
+
+        fn read(&mut self, _: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+            std::thread::sleep(Duration::from_millis(40));
+            let count = MonotonicClock.now().as_nanos() / u128::from(self.nanoseconds);
+            let stamp = Duration::from_nanos(u64::try_from(count).expect("a time since start"));
+            Ok((Wrench::default(), Stamp::at(stamp)))
         }
     }
 
@@ -289,6 +311,29 @@ mod tests {
 
     mod waiting {
         use super::*;
+
+        #[test]
+        fn a_transducer_whose_stamps_are_in_milliseconds_is_refused_unless_its_time_is_its_own() {
+            for (source, nanoseconds, is_refused) in [
+                (DriverSource::Real, 1, false),
+                (DriverSource::Real, 1_000_000, true),
+                (DriverSource::Simulated, 1_000_000, false),
+            ] {
+                let facts = ForceFacts::default()
+                    .with_axes(Axes::NORMAL)
+                    .with_rate(Hertz(25.0));
+                let device = Box::new(OfUnit { nanoseconds });
+                let facts = Facts::Force(facts);
+                let force = opened::<dyn ForceTransducer>(device, source, facts);
+                let (read, error) = readings(&mut *force.timely(false, |_| None), 40);
+                assert_eq!(error.is_some(), is_refused, "{source}, {read}: {error:?}");
+                let Some(error) = error else { continue };
+                assert_eq!(error.kind(), ErrorKind::DeviceFault);
+                let error = error.to_string();
+                let unit = "milliseconds where nanoseconds are expected";
+                assert!(error.contains(unit), "{error}");
+            }
+        }
 
         #[test]
         fn the_drift_of_a_camera_is_taken_off_its_stamps_unless_it_is_recorded_or_the_host_stamps_it()

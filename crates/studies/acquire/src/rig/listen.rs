@@ -18,9 +18,12 @@ const LOOK: Duration = Duration::from_millis(10);
 
 /// Message for an error of an open device, with its remedy.
 pub(super) fn without_answer(error: DriverError) -> String {
-    format!(
-        "{error}; check its cable and power, and whether another program uses it, then run `taceva rig check` again"
-    )
+    let remedy = match error.kind() {
+        // The device answers, and its message names the remedy.
+        ErrorKind::DeviceFault => "",
+        _ => " check its cable and power, and whether another program uses it,",
+    };
+    format!("{error};{remedy} then run `taceva rig check` again")
 }
 
 /// Calls `hear` repeatedly until the measurement ends.
@@ -83,4 +86,21 @@ pub(super) fn listen_to_sensor(sensor: &mut dyn Sensor) -> Result<Stream, String
     heard
         .and_then(|heard| stopped.map(|()| heard))
         .map_err(without_answer)
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::DriverKey;
+
+    use super::*;
+
+    #[test]
+    fn a_fault_that_a_device_states_is_not_blamed_on_its_cable() {
+        let key = DriverKey::fixed("test/force");
+        let said = |kind| without_answer(DriverError::new(kind, &key, "read the force"));
+        assert!(said(ErrorKind::Disconnected).contains("check its cable"));
+        let fault = said(ErrorKind::DeviceFault);
+        assert!(!fault.contains("cable"), "{fault}");
+        assert!(fault.contains("run `taceva rig check` again"), "{fault}");
+    }
 }

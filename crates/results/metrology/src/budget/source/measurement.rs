@@ -109,7 +109,7 @@ impl Reader<'_> {
         });
         let Some(u) = u else {
             return Err(error(BudgetProblem::Value {
-                found: format!("U = {}, {:?}", certificate.absolute, certificate.coverage),
+                found: format!("U = {}, {}", certificate.absolute, certificate.coverage),
                 expected: "U of 0 or more, with k above 0 or p between 0 and 1".to_owned(),
             }));
         };

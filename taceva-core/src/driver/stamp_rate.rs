@@ -1,0 +1,223 @@
+//! Advance of the stamps of a device beside the clock of its host, which shows stamps in another unit.
+
+use std::fmt;
+
+/// Least and greatest rate of stamps that follow the clock of the host.
+const RATE_MIN: f64 = 0.5;
+const RATE_MAX: f64 = 2.0;
+/// Greatest factor between a rate and the rate of its unit: about the root of 1000.
+const UNIT_FACTOR: f64 = 30.0;
+/// Rates of mistaken units.
+const UNITS: [(f64, &str); 6] = [
+    (1e-9, "seconds where nanoseconds are expected"),
+    (1e-6, "milliseconds where nanoseconds are expected"),
+    (1e-3, "microseconds where nanoseconds are expected"),
+    (1e3, "milliseconds where seconds are expected"),
+    (1e6, "microseconds where seconds are expected"),
+    (1e9, "nanoseconds where seconds are expected"),
+];
+
+/// Time by which the stamps of a device advance in each second of the host's clock, in s.
+///
+/// ```
+/// use taceva_core::StampRate;
+///
+/// assert!(StampRate::of(0.26, 0.25).is_of_host_clock());
+/// let mistaken = StampRate::of(0.000_25, 0.25);
+/// assert_eq!(mistaken.unit(), Some("microseconds where nanoseconds are expected"));
+/// assert!(mistaken.to_string().starts_with("the stamps advance by 1.0e-3 s in each second"));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StampRate(f64);
+
+impl StampRate {
+    /// Rate of stamps that advance by `stamps_s` while the clock of the host advances by `host_s`, both in s.
+    pub fn of(stamps_s: f64, host_s: f64) -> StampRate {
+        StampRate(stamps_s / host_s)
+    }
+
+    /// True for a rate near 1. Samples that waited in a queue change the rate by less than a factor of 2.
+    pub fn is_of_host_clock(self) -> bool {
+        (RATE_MIN..=RATE_MAX).contains(&self.0)
+    }
+
+    /// Mistaken unit of the stamps, and the expected unit; `None` if no unit has this rate.
+    pub fn unit(self) -> Option<&'static str> {
+        let is_near = |rate: f64| self.0 > rate / UNIT_FACTOR && self.0 < rate * UNIT_FACTOR;
+        let unit = UNITS.into_iter().find(|(rate, _)| is_near(*rate));
+        unit.map(|(_, words)| words)
+    }
+
+    /// True for a rate so low that only another unit explains it.
+    fn is_of_smaller_unit(self) -> bool {
+        self.0 * UNIT_FACTOR < 1.0
+    }
+}
+
+impl fmt::Display for StampRate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "the stamps advance by {:.1e} s in each second of this machine's clock, expected 1 s: ",
+            self.0
+        )?;
+        match self.unit() {
+            Some(unit) => write!(
+                f,
+                "they are probably {unit}; convert them, or stamp with the clock of the host (`now_ns` in C, `now` in Rust and Python)"
+            ),
+            None => f.write_str("check the clock of the device and the unit of its stamps"),
+        }
+    }
+}
+
+/// Minimum number of samples in a window, and of seconds that the host waits for them.
+const SAMPLES_MIN: u32 = 2;
+const WINDOW_S: f64 = 0.2;
+/// Number of consecutive windows with stamps of a smaller unit that is an error of the device. A queue after a pause of the host fills one window.
+const SLOW_MAX: u32 = 3;
+
+/// Windows of samples, in which stamps are compared with the time of the calls for these samples. Pauses between calls do not count.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct StampWindows {
+    /// Stamp at the start of the present window, s; `None` before the first sample.
+    begun_s: Option<f64>,
+    samples: u32,
+    waited_s: f64,
+    /// Rate in the last complete window.
+    rate: Option<StampRate>,
+    /// Number of consecutive windows with stamps of a smaller unit.
+    slow: u32,
+}
+
+impl StampWindows {
+    /// Adds a sample with the stamp `stamp_s`, for which the calls took `waited_s`, both in s. Returns the rate of stamps in a smaller unit.
+    pub(super) fn add(&mut self, stamp_s: f64, waited_s: f64) -> Option<StampRate> {
+        let Some(begun_s) = self.begun_s else {
+            self.begun_s = Some(stamp_s);
+            return None;
+        };
+        self.samples = self.samples.saturating_add(1);
+        self.waited_s += waited_s;
+        let advance_s = stamp_s - begun_s;
+        // A signal that repeats its stamp is frozen, whatever its unit.
+        if self.samples >= SAMPLES_MIN && self.waited_s >= WINDOW_S && advance_s > 0.0 {
+            let rate = StampRate::of(advance_s, self.waited_s);
+            *self = StampWindows {
+                begun_s: Some(stamp_s),
+                rate: Some(rate),
+                slow: match rate.is_of_smaller_unit() {
+                    true => self.slow.saturating_add(1),
+                    false => 0,
+                },
+                ..StampWindows::default()
+            };
+        }
+        self.rate.filter(|_| self.slow >= SLOW_MAX)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Samples of one device.
+    #[derive(Default)]
+    struct Samples {
+        windows: StampWindows,
+        stamp_s: f64,
+    }
+
+    impl Samples {
+        /// Adds `count` samples that each take `waited_s`, with stamps `step_s` apart. Returns the result of the last one.
+        fn add(&mut self, count: u32, waited_s: f64, step_s: f64) -> Option<StampRate> {
+            (0..count).fold(None, |_, _| {
+                self.stamp_s += step_s;
+                self.windows.add(self.stamp_s, waited_s)
+            })
+        }
+    }
+
+    #[test]
+    fn a_rate_near_a_power_of_1000_names_the_mistaken_unit_and_a_rate_near_1_names_none() {
+        for (stamps_s, unit) in [
+            (2.4e-9, Some("seconds where nanoseconds are expected")),
+            (2.0e-6, Some("milliseconds where nanoseconds are expected")),
+            (3.9e-3, Some("microseconds where nanoseconds are expected")),
+            (2.2e3, Some("milliseconds where seconds are expected")),
+            (1.7e6, Some("microseconds where seconds are expected")),
+            (1.6e9, Some("nanoseconds where seconds are expected")),
+            (0.7, None),
+            (2.0, None),
+            (0.0, None),
+            (-3.0, None),
+        ] {
+            let rate = StampRate::of(stamps_s, 2.0);
+            assert_eq!(rate.unit(), unit, "{rate}");
+            assert!(rate.to_string().contains("stamps"), "{rate}");
+        }
+    }
+
+    #[test]
+    fn stamps_follow_the_clock_of_the_host_within_a_factor_of_2() {
+        for (stamps_s, is_of_host) in [
+            (0.3, true),
+            (0.16, true),
+            (0.59, true),
+            (0.14, false),
+            (0.61, false),
+            (0.0, false),
+            (-0.3, false),
+            (3e-4, false),
+            (f64::NAN, false),
+        ] {
+            let rate = StampRate::of(stamps_s, 0.3);
+            assert_eq!(rate.is_of_host_clock(), is_of_host, "{rate}");
+        }
+    }
+
+    #[test]
+    fn stamps_in_a_smaller_unit_are_refused_for_good_after_three_windows() {
+        for unit in [1e-3, 1e-6, 1e-9] {
+            let mut samples = Samples::default();
+            let found = samples.add(15, 0.04, 0.04 * unit);
+            assert_eq!(found, None, "less than three windows");
+            for _ in 0..3 {
+                let found = samples.add(10, 0.04, 0.04 * unit).expect("refused");
+                assert!((found.0 / unit - 1.0).abs() < 1e-3, "{found}");
+            }
+        }
+    }
+
+    #[test]
+    fn stamps_in_the_unit_of_the_interface_are_accepted_at_every_speed_and_after_pauses() {
+        for (waited_s, step_s) in [
+            (0.04, 0.04),
+            (0.0001, 0.0001),
+            // Samples from a queue come at once, and after pauses of the host the stamps leap ahead.
+            (0.0, 0.04),
+            (0.04, 10.0),
+            // A device that lags behind, by far less than a unit.
+            (0.2, 0.02),
+        ] {
+            let found = Samples::default().add(20_000, waited_s, step_s);
+            assert_eq!(found, None, "{waited_s} {step_s}");
+        }
+    }
+
+    #[test]
+    fn a_pause_within_a_call_and_the_queue_after_it_are_no_other_unit() {
+        let mut samples = Samples::default();
+        for _ in 0..10 {
+            // One call that was held up for 1 s, then a thousand readings of 1 kHz from a queue, then readings in time.
+            assert_eq!(samples.add(1, 1.0, 0.001), None);
+            assert_eq!(samples.add(1000, 0.0, 0.001), None);
+            assert_eq!(samples.add(500, 0.001, 0.001), None);
+        }
+    }
+
+    #[test]
+    fn a_frozen_signal_that_repeats_its_stamp_is_not_called_another_unit() {
+        assert_eq!(Samples::default().add(1000, 0.04, 0.0), None);
+    }
+}
