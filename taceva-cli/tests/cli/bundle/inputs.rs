@@ -315,7 +315,8 @@ fn a_bundle_says_which_of_its_files_name_the_operator_and_how_to_leave_the_name_
     let bench = Bench::new();
     bench.record_by("data", 32, "Lovelace");
     bench.ok("evaluate data --model ridge --metrics mae --format json --out r.json --state-out r.state --samples-out r.samples.csv -q");
-    let words = "bundle r.json --state r.state --author Lovelace --licence CC-BY-4.0 --date 2026-11-28";
+    let words =
+        "bundle r.json --state r.state --author Lovelace --licence CC-BY-4.0 --date 2026-11-28";
     let named = bench.run(&format!("{words} --dataset data --out b"));
     assert_eq!(named.code, 0, "{}", named.err);
     let said = "the bundle publishes the name of the operator, Lovelace, in ";
