@@ -8,6 +8,7 @@ use taceva_acquire::{PlannedScene, PlannedStudy};
 use taceva_core::{counted, shown, whole_size};
 use taceva_drivers::Drivers;
 use taceva_metrics::LEAST_CLUSTERS;
+use taceva_models::{Auto, Preset};
 use taceva_protocol::{PhaseKind, Plan, PlannedPress, WantedWidth};
 use taceva_results::EvaluationReport;
 use taceva_study::{ScoredWidth, TestedPoints};
@@ -154,7 +155,7 @@ fn names(reports: &[EvaluationReport]) -> String {
             shown(&subject.serial)
         )
     });
-    names.collect::<Vec<_>>().join(", ")
+    names.collect::<Vec<_>>().join("; ")
 }
 
 /// Study whose widths are predicted.
@@ -272,13 +273,15 @@ fn tested(study: &PlannedStudy) -> Option<TestedPoints> {
     })
 }
 
-/// Model behind `report` in words, beside another model that `study` names.
+/// Model behind `report` in words, beside another model that `study` names. A report names the model of a preset, and the model that `auto` chose.
 fn model_of(report: &EvaluationReport, study: &PlannedStudy) -> String {
     let Some(fitted) = &report.provenance.model else {
         return String::new();
     };
     let named = study.study.model.as_ref();
     let named = named.and_then(|model| Some(model.name.as_ref()?.value.as_str()));
+    let named = named.filter(|named| *named != Auto::INFO.name);
+    let named = named.map(|named| Preset::named(named).map_or(named, |preset| preset.model));
     let other = named.filter(|named| *named != fitted.name);
     let other = other.map_or_else(String::new, |named| {
         format!(", and the scene names {}", shown(named))

@@ -2,19 +2,25 @@
 
 use std::fs;
 
-use taceva_core::{distinct, shown};
+use taceva_core::distinct;
 use toml::{Table, Value};
 
 use crate::inputs::Inputs;
 use crate::layout::MOST_TEXT;
 use crate::writer::Writer;
 
-/// Sentence on the operators that the written files name; `None` without such names.
+/// Roles of files that are generated from the request, which names authors. An author may be the operator.
+const OF_AUTHORS: [&str; 2] = ["card", "manifest"];
+
+/// Sentence on the operators that the copied files name; `None` without such names.
 pub(crate) fn note(inputs: &Inputs, written: &Writer<'_>) -> Option<String> {
     let names = names(inputs);
-    let has_name = |text: &str| names.iter().any(|name| text.contains(name.as_str()));
+    let has_name = |text: &str| names.iter().any(|name| has_word(text, name));
     let mut files = Vec::new();
-    for file in written.files.iter().filter(|file| file.size <= MOST_TEXT) {
+    for file in &written.files {
+        if OF_AUTHORS.contains(&file.role.as_str()) || file.size > MOST_TEXT {
+            continue;
+        }
         // A Parquet table and a packed picture are not text.
         let text = fs::read_to_string(written.root.join(&file.path)).unwrap_or_default();
         if has_name(&text) {
@@ -24,7 +30,7 @@ pub(crate) fn note(inputs: &Inputs, written: &Writer<'_>) -> Option<String> {
     (!files.is_empty()).then(|| {
         format!(
             "the bundle publishes the name of the operator, {}, in {}: sealed files keep it, so a bundle without the name needs a recording without it (no `name` under [operator] of the rig file, no --operator of `taceva capture`)",
-            shown(&names.join(", ")),
+            names.join(", "),
             files.join(", ")
         )
     })
@@ -46,6 +52,16 @@ fn names(inputs: &Inputs) -> Vec<String> {
     )
 }
 
+/// True if `word` is in `text` without letters or digits next to it.
+fn has_word(text: &str, word: &str) -> bool {
+    let is_part = |letter: Option<char>| letter.is_some_and(char::is_alphanumeric);
+    let mut found = text.match_indices(word);
+    found.any(|(at, word)| {
+        let after = &text[at + word.len()..];
+        !is_part(text[..at].chars().next_back()) && !is_part(after.chars().next())
+    })
+}
+
 /// Text at `key` of `table` in a TOML text; `None` without this key.
 fn name(text: &str, [table, key]: [&str; 2]) -> Option<String> {
     let all: Table = toml::from_str(text).ok()?;
@@ -53,4 +69,19 @@ fn name(text: &str, [table, key]: [&str; 2]) -> Option<String> {
         .get(key)
         .and_then(Value::as_str)
         .map(str::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_short_name_is_found_as_a_word_and_not_inside_another_word() {
+        for text in ["operator = \"AL\"", "1,AL,2", "AL"] {
+            assert!(has_word(text, "AL"), "{text}");
+        }
+        for text in ["DIGITAL", "ALL", "al", ""] {
+            assert!(!has_word(text, "AL"), "{text}");
+        }
+    }
 }

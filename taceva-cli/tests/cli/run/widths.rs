@@ -201,9 +201,31 @@ fn the_results_of_a_run_belong_to_the_studies_of_the_same_name_and_unit_in_any_o
     let said = planned(&bench, "other.toml --from r");
     assert!(said.contains("width: vitactip: mae.Fz: "), "{said}");
     assert!(
-        said.contains("width: magictac: not predicted, because the earlier run has no result of this study on unit 2: it has `vitactip` on unit 0, 1, `magictac` on unit 0, 1"),
+        said.contains("width: magictac: not predicted, because the earlier run has no result of this study on unit 2: it has `vitactip` on unit 0, 1; `magictac` on unit 0, 1"),
         "{said}"
     );
+}
+
+#[test]
+fn a_plan_names_the_model_of_the_scene_if_the_run_fitted_another_model() {
+    let (bench, _, _) = with_pilot();
+    let own = "name = \"ridge\", folds = 3, set = { size = \"8x8\" }";
+    let said = |model: &str| {
+        let scene = wanting("points = 16", "20 %");
+        assert!(scene.contains(own), "{scene}");
+        let other = format!("name = \"{model}\", folds = 3");
+        bench.write("other.toml", &scene.replace(own, &other));
+        planned(&bench, "other.toml --from r")
+    };
+    // A preset is another name for a model, and `auto` may have chosen the model of the run.
+    for (model, named) in [("pls", Some("pls")), ("fast", Some("cnn")), ("auto", None)] {
+        let said = said(model);
+        let words = match named {
+            Some(named) => format!("16 simulated points with ridge, and the scene names {named}"),
+            None => "16 simulated points with ridge".to_owned(),
+        };
+        assert!(said.ends_with(&words), "{said}");
+    }
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod programs;
 
 use taceva_core::Unit;
 use taceva_metrics::{Better, Standing};
+use taceva_results::full_name;
 
 use super::column::named;
 use super::main::is_main;
@@ -14,7 +15,6 @@ use crate::compare::{CompareRequest, QUESTIONS};
 use crate::names::listed;
 use crate::results::Study;
 use crate::table::{Align, Cell, Column, Estimate, Table, Words};
-use taceva_results::full_name;
 
 /// Text for a number or fact that an entry of the catalogue lacks.
 const NOT_THERE: &str = "not in the catalogue";

@@ -33,6 +33,13 @@ pub(super) fn of_scenes(before: &str, now: &str) -> Option<String> {
         })
 }
 
+/// True for equal plans. Plans of earlier builds name no operator.
+pub(super) fn are_same_plans(before: &str, now: &str) -> bool {
+    let read = |text: &str| serde_json::from_str::<Value>(text).ok();
+    let same = |(before, now): (Value, Value)| of_values("", &before, &now).is_none();
+    before == now || read(before).zip(read(now)).is_some_and(same)
+}
+
 /// First value that differs between two texts of plans, such as `studies.0.seed was 1 and is now 2`; `None` for equal plans.
 pub(super) fn of_plans(before: &str, now: &str) -> Option<String> {
     let read = |text: &str| serde_json::from_str::<Value>(text).ok();
@@ -67,6 +74,8 @@ fn of_values(path: &str, before: &Value, now: &Value) -> Option<String> {
         (before, now) if before == now => None,
         // The plan has the digest of the rig file, and its operator.
         _ if path == "rig" => Some("the rig file changed".to_owned()),
+        // An earlier build stored no operator. If a person added the name, the rig file differs too.
+        (Value::Null, _) if path == "operator" => None,
         (before, now) if path == "operator" => Some(format!(
             "the operator was {} and is now {} (`name` under [operator] of the rig file)",
             person(before),
@@ -127,6 +136,21 @@ mod tests {
         assert!(
             nobody.contains("was `Ada` and is now not named"),
             "{nobody}"
+        );
+    }
+
+    #[test]
+    fn a_plan_of_an_earlier_build_without_an_operator_is_the_same_plan() {
+        let plan = |rig: &str| format!(r#"{{"seed": 1, "rig": "{rig}"}}"#);
+        let now = r#"{"seed": 1, "rig": "sha256:1", "operator": "Ada"}"#;
+        assert!(are_same_plans(&plan("sha256:1"), now));
+        assert!(!are_same_plans(now, &plan("sha256:1")));
+        assert!(!are_same_plans("no plan", now));
+        let other = plan("sha256:2");
+        assert!(!are_same_plans(&other, now));
+        assert_eq!(
+            of_plans(&other, now).as_deref(),
+            Some("the rig file changed")
         );
     }
 

@@ -31,7 +31,7 @@ impl RunFolder {
         }
         let before = fs::read_to_string(&path).map_err(|error| self.refused(error.to_string()))?;
         let now = self.plans_of(scene)?;
-        match before.trim_end() == now {
+        match difference::are_same_plans(before.trim_end(), &now) {
             true => Ok(true),
             false => Err(self.refused(self.other_plan(scene, before.trim_end(), &now))),
         }
