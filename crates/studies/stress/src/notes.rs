@@ -4,7 +4,8 @@ use taceva_core::counted;
 use taceva_metrics::LEAST_CLUSTERS;
 
 use crate::fault::{Fault, Scope};
-use crate::score::Scored;
+use crate::report::ByChannel;
+use crate::score::{MAE, SKILL, Scored};
 use crate::setup::StressRequest;
 
 /// Notes on the limitations of the scores of `faults`. `clean` has the scores of `samples` predicted samples without a fault.
@@ -25,8 +26,16 @@ pub(crate) fn notes(
             "{names}: means over {draws} draws of places, by seed {seed}; the spread shows the variation between draws, which the interval does not include."
         ),
     });
+    let lacks = |name: &&str| {
+        let of = clean.others.get(*name);
+        ![MAE, SKILL].contains(name) && of.is_none_or(ByChannel::is_empty)
+    };
+    let absent = request.metrics.iter().map(String::as_str).filter(lacks);
+    let absent: Vec<&str> = absent.collect();
+    let absent = (!absent.is_empty())
+        .then(|| format!("No scored channel or plane has {}.", absent.join(", ")));
     let [intervals, labels] = of_scores(clean, samples);
-    [intervals, of_draws, labels]
+    [intervals, of_draws, labels, absent]
         .into_iter()
         .flatten()
         .collect()

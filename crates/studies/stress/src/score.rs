@@ -13,8 +13,8 @@ use crate::estimate::{Estimate, Undefined};
 use crate::ratio::{Errors, Share, mean_ratio};
 use crate::report::{ByChannel, CellScore, CleanScore};
 
-const MAE: &str = "mae";
-const SKILL: &str = "skill";
+pub(crate) const MAE: &str = "mae";
+pub(crate) const SKILL: &str = "skill";
 
 /// Scorer of predictions of the same rows.
 pub(crate) struct Scorer<'a> {
@@ -38,7 +38,7 @@ pub(crate) struct Scored {
     pub(crate) mae: ByChannel<Estimate>,
     skill: ByChannel<Estimate>,
     /// Metrics on request.
-    others: BTreeMap<&'static str, ByChannel<Estimate>>,
+    pub(crate) others: BTreeMap<&'static str, ByChannel<Estimate>>,
     pub(crate) errors: ByChannel<Errors>,
     /// Least and greatest mean error of a single draw; empty for one draw.
     spread: ByChannel<[f64; 2]>,

@@ -195,10 +195,7 @@ impl Wanted {
                 severities: stress.severities(),
                 draws: stress.draws(),
                 seed: planned.scene.seed,
-                by: usual.by,
-                part: None,
-                stops_at_no_skill: usual.stops_at_no_skill,
-                metrics: usual.metrics,
+                ..usual
             },
             is_usual: stress.faults.is_none(),
             gels,

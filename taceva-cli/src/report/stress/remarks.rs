@@ -56,7 +56,7 @@ pub(super) fn other_metrics(report: &StressReport) -> Option<String> {
     let names = report.clean.values().flat_map(|of| of.metrics.keys());
     let names: BTreeSet<&str> = names.map(String::as_str).collect();
     let names: Vec<&str> = names.into_iter().collect();
-    let words = "of each channel, fault and severity: in --format csv and json";
+    let words = "of each channel, fault and severity are in --format csv and json";
     (!names.is_empty()).then(|| format!("{} {words}.", names.join(", ")))
 }
 

@@ -214,7 +214,7 @@ fn metrics_on_request_are_in_json_text_csv_and_the_plan_and_a_misspelt_one_is_re
     }
     assert!(bench.json(words)["clean"]["Fz"].get("metrics").is_none());
     let said = bench.ok(&format!("{asked} -q"));
-    let note = "r2, rmse of each channel, fault and severity: in --format csv and json.";
+    let note = "r2, rmse of each channel, fault and severity are in --format csv and json.";
     assert!(said.contains(note), "{said}");
     let csv = bench.ok(&format!("{asked} --format csv -q"));
     let rows = csv.lines().filter(|row| row.contains(",Fz,rmse,"));

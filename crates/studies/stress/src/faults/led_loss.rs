@@ -7,8 +7,8 @@ use crate::fault::{Effect, Fault, Scope};
 
 pub(super) static FAULT: Fault = Fault {
     id: "led_loss",
-    title: "the lamps of the left side dim, linearly across the picture",
-    parameter: "share of the light that is lost at the left edge",
+    title: "the lamps of the left side, or of the stated side, dim linearly across the picture",
+    parameter: "share of the light that is lost at the edge of that side",
     scope: Scope::Fixed,
     table: [0.03, 0.07, 0.15, 0.30, 0.50],
     most: 1.0,

@@ -180,6 +180,20 @@ fn metrics_on_request_stand_in_every_cell_and_change_no_other_number() {
 }
 
 #[test]
+fn a_metric_of_planes_has_a_note_where_no_plane_is_scored() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (dataset, model) = unseen(folder.path());
+    let request = StressRequest {
+        metrics: ["mae_euclid", "bias"].map(str::to_owned).to_vec(),
+        ..by_parameter(&["dust"])
+    };
+    let report = stress(&dataset, &model, &request, WORK).expect("tested");
+    let notes = report.notes.join(" ");
+    let note = "No scored channel or plane has mae_euclid.";
+    assert!(notes.contains(note), "{notes}");
+}
+
+#[test]
 fn a_new_untouched_picture_removes_most_of_the_error_of_lost_light() {
     let folder = tempfile::tempdir().expect("a folder");
     let (dataset, model) = unseen(folder.path());
