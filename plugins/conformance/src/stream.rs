@@ -5,7 +5,6 @@ use std::time::{Duration, Instant};
 
 use taceva_core::{
     Deadline, DriverError, ErrorKind, ForceTransducer, FrameMut, Interrupt, Sensor, Stamp,
-    StampRate,
 };
 
 use crate::promise::{Unmet, answered, expect, in_order, refused, skipped};
@@ -89,7 +88,10 @@ pub(crate) fn started<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<Box<D>
     Ok(device)
 }
 
-fn next<D: Stream + ?Sized>(tried: &Tried<'_, D>, device: &mut D) -> Result<Stamp, Unmet> {
+pub(crate) fn next<D: Stream + ?Sized>(
+    tried: &Tried<'_, D>,
+    device: &mut D,
+) -> Result<Stamp, Unmet> {
     tried.reading(device.next(tried.trial.deadline))
 }
 
@@ -106,43 +108,6 @@ pub(crate) fn stamps<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unm
     let mut device = started(tried)?;
     let stamps = (0..D::COUNT).map(|_| next(tried, &mut *device));
     in_order(&stamps.collect::<Result<Vec<_>, _>>()?)
-}
-
-/// Least time and number of items of one comparison of stamps with the clock of this machine.
-const COMPARED: Duration = Duration::from_millis(250);
-const COMPARED_MIN: usize = 4;
-/// Number of comparisons of which one must agree. A busy machine delays items in the others.
-const COMPARISONS: usize = 4;
-
-/// The stamps of a real device advance like the clock of this machine.
-pub(crate) fn keeps_time<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
-    tried.is_real()?;
-    let mut device = started(tried)?;
-    let mut rate = stamp_rate(tried, &mut *device)?;
-    for _ in 1..COMPARISONS {
-        if !rate.is_of_host_clock() {
-            rate = stamp_rate(tried, &mut *device)?;
-        }
-    }
-    expect(rate.is_of_host_clock(), || rate.to_string())
-}
-
-fn stamp_rate<D: Stream + ?Sized>(
-    tried: &Tried<'_, D>,
-    device: &mut D,
-) -> Result<StampRate, Unmet> {
-    let first = next(tried, device)?;
-    let begun = Instant::now();
-    let mut items = 0;
-    loop {
-        let stamp = next(tried, device)?;
-        items += 1;
-        let passed = begun.elapsed();
-        if items >= COMPARED_MIN && passed >= COMPARED {
-            let advance_s = stamp.valid_s - first.valid_s;
-            return Ok(StampRate::of(advance_s, passed.as_secs_f64()));
-        }
-    }
 }
 
 /// A request before the start either returns an item or fails. The device works afterwards.

@@ -138,16 +138,6 @@ impl<'a, D: ?Sized> Tried<'a, D> {
         }
     }
 
-    /// Skips a promise about the clock of this machine unless the driver is of a real device.
-    pub(crate) fn is_real(&self) -> Result<(), Unmet> {
-        match self.descriptor.source() {
-            DriverSource::Real => Ok(()),
-            source => Err(skipped(format!(
-                "its stamps are {source}, so they need not follow the clock of this machine"
-            ))),
-        }
-    }
-
     /// Skips a promise that moves a device, unless the trial allows it.
     pub(crate) fn may_move(&self) -> Result<(), Unmet> {
         if self.trial.moves {

@@ -69,7 +69,7 @@ impl SampleTiming {
         }
     }
 
-    /// Also refuses stamps that advance by less than a thirtieth of the time of the calls: they are in another unit. For a real device.
+    /// Also refuses stamps that advance by less than 0.5 % of the time of the calls: they are in another unit. For a real device.
     #[must_use]
     pub fn with_unit_check(self) -> SampleTiming {
         SampleTiming {

@@ -7,6 +7,8 @@ const RATE_MIN: f64 = 0.5;
 const RATE_MAX: f64 = 2.0;
 /// Greatest factor between a rate and the rate of its unit: about the root of 1000.
 const UNIT_FACTOR: f64 = 30.0;
+/// Least rate that a smaller unit does not explain. A busy host that falls behind a queue of thousands of samples a second sees low rates too.
+const SMALLER_UNIT_MAX: f64 = 0.005;
 /// Rates of mistaken units.
 const UNITS: [(f64, &str); 6] = [
     (1e-9, "seconds where nanoseconds are expected"),
@@ -50,7 +52,7 @@ impl StampRate {
 
     /// True for a rate so low that only another unit explains it.
     fn is_of_smaller_unit(self) -> bool {
-        self.0 * UNIT_FACTOR < 1.0
+        self.0 < SMALLER_UNIT_MAX
     }
 }
 
@@ -199,6 +201,8 @@ mod tests {
             (0.04, 10.0),
             // A device that lags behind, by far less than a unit.
             (0.2, 0.02),
+            // A queue of 7000 readings a second, of which a busy host takes one in 15 ms.
+            (0.015, 1.0 / 7000.0),
         ] {
             let found = Samples::default().add(20_000, waited_s, step_s);
             assert_eq!(found, None, "{waited_s} {step_s}");

@@ -47,10 +47,11 @@ pub struct Decoders {
 /// let clip = Video::open(file.as_ref(), &Decoders::default())?;
 /// let mut shown = Vec::new();
 /// clip.visit(&[3, 10], Colours::Luma, &mut |index, picture| {
-///     shown.push((index, format!("{picture:?}")));
+///     shown.push((index, picture.to_string()));
 ///     Ok::<(), std::convert::Infallible>(())
 /// })?;
-/// assert_eq!(shown, [(3, "Pixels(64×48)".to_owned()), (10, "Pixels(64×48)".to_owned())]);
+/// let words = "a picture of 64×48 pixels of 8 bits";
+/// assert_eq!(shown, [(3, words.to_owned()), (10, words.to_owned())]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]

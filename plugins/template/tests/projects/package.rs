@@ -6,15 +6,16 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use taceva_template::{Kind, Sources, headers, project};
+use taceva_template::{Kind, Sources, c_project, headers, project};
 
 /// Writes every file of the crate, with its path and its length.
 const PRINTER: &str = r#"
-use taceva_template::{Kind, Sources, headers, project};
+use taceva_template::{Kind, Sources, c_project, headers, project};
 
 fn main() {
     let name = "my-device".parse().expect("a name");
-    for file in project(Kind::Robot, &name, Sources::Vendored).into_iter().chain(headers()) {
+    let files = project(Kind::Robot, &name, Sources::Vendored).into_iter();
+    for file in files.chain(headers()).chain(c_project(Kind::Robot, &name)) {
         print!("{} {}\n{}", file.path, file.text.len(), file.text);
     }
 }
@@ -76,6 +77,7 @@ fn the_published_crate_builds_alone_and_embeds_the_same_bytes() {
     let files = project(Kind::Robot, &name, Sources::Vendored).into_iter();
     let expected: String = files
         .chain(headers())
+        .chain(c_project(Kind::Robot, &name))
         .map(|file| format!("{} {}\n{}", file.path, file.text.len(), file.text))
         .collect();
     assert!(expected.len() > 300_000, "{}", expected.len());
