@@ -60,7 +60,7 @@ pub struct Variant {
     pub interval: Option<Interval>,
 }
 
-/// Scores of an evaluation, in the same order.
+/// Scores of `evaluation`, in its order.
 pub fn scores(evaluation: &Evaluation) -> Vec<Score> {
     let all = evaluation.scores();
     all.map(|(metric, channel, score)| Score::of(metric, channel, score))

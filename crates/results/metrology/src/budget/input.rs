@@ -40,7 +40,7 @@ impl Input {
     }
 }
 
-/// Term of a source in the default model.
+/// Term of a source with the estimate δ in the default model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Enters {
     /// + δ.

@@ -210,7 +210,7 @@ impl Measurement {
         }
     }
 
-    /// Quantity that a guard divides or multiplies, in words. `None` if the guard is subtracted or added in the unit of the value.
+    /// Quantity that a guard band divides or multiplies, in words. `None` if the guard band is subtracted or added in the unit of the value.
     ///
     /// ```
     /// use taceva_metrics::Scale;
