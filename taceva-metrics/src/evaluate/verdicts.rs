@@ -115,8 +115,8 @@ fn beside_chance(metric: &Metric, score: &Score) -> Standing {
     }
 }
 
-/// Standing of a share within a tolerance: a score does not count unless its interval is above the share of the skill's constant. Without a
-/// known constant, skill alone decides.
+/// Standing of a share within a tolerance: a score does not count unless its interval is above the share of a constant prediction. Without
+/// a known constant, skill alone decides.
 fn beside_constant(metric: &Metric, score: &Score) -> Standing {
     match (metric.verdict, of_share(score)) {
         (VerdictRule::ShareBesideConstant, Standing::NoSkill) => Standing::NotAboveConstant,

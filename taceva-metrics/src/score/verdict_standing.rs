@@ -31,8 +31,8 @@ pub enum Standing {
     LowStimulus,
     /// Excluded: the interval of the deciding variant contains the value of chance alone.
     NotAboveNoiseFloor,
-    /// Excluded: a share whose interval is not above the share of the skill's constant. The model may still have the smaller mean squared
-    /// error.
+    /// Excluded: a share whose interval is not above the share of the constant prediction with which skill compares the model. The model may still
+    /// have the smaller mean squared error.
     NotAboveConstant,
     /// Excluded: better than a constant, but without an interval that shows more than chance.
     NoInterval,
