@@ -52,7 +52,7 @@ fn of_skill_score(skill: &Score) -> Standing {
     Standing::of_value(low_end(skill), skill.value.scalar())
 }
 
-/// Lower end of the interval of a score; `None` without an interval.
+/// Lower end of the interval of a score, or its value if the value is at an end of its range in every cluster; otherwise `None`.
 fn low_end(score: &Score) -> Option<f64> {
     match score.interval {
         // A value at the end of its range in every cluster, as for a model without errors, is its own lower end.

@@ -59,7 +59,7 @@ impl Standing {
         matches!(self, Standing::Counts | Standing::SkillUnknown)
     }
 
-    /// Words for files and programs; `None` for a score that counts. [`Standing::phrase`] returns words for readers.
+    /// Words for files and programs; `None` for [`Standing::Counts`]. [`Standing::phrase`] returns words for readers.
     ///
     /// ```
     /// use taceva_metrics::Standing;
@@ -80,7 +80,7 @@ impl Standing {
         }
     }
 
-    /// Words for readers, printed next to a value; `None` for a score that counts.
+    /// Words for readers, printed next to a value; `None` for [`Standing::Counts`].
     ///
     /// ```
     /// use taceva_metrics::Standing;

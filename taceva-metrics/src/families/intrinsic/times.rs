@@ -19,7 +19,7 @@ impl Intervals {
     /// Each difference of successive times, rounded once.
     ///
     /// # Errors
-    /// [`UndefinedReason`] if no sample has a time, all times are equal, or the frames are single pictures.
+    /// [`UndefinedReason`] for fewer than two different times, or if the frames are single pictures.
     pub(super) fn of(sums: &IntrinsicSums) -> Result<Intervals, UndefinedReason> {
         match sums.times_s()[..] {
             [] => Err(UndefinedReason::NoTimes),

@@ -172,7 +172,7 @@ impl Measurement {
         ))
     }
 
-    /// Expanded uncertainty for a two-sided coverage in 0..1. On a logarithmic scale relative to the value. `None` without an uncertainty.
+    /// Expanded uncertainty for a two-sided coverage in 0..1, on the scale of the distribution. `None` without an uncertainty.
     #[must_use]
     pub fn expanded(&self, coverage: f64) -> Option<f64> {
         Some(self.coverage_factor(coverage)? * self.uncertainty?.scaled)

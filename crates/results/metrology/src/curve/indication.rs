@@ -190,7 +190,7 @@ impl IndicationSummary {
     /// Summarises presses with a defined q and skips other presses.
     ///
     /// # Errors
-    /// [`CurveUndefined::TooFewRows`] without any press.
+    /// [`CurveUndefined::TooFewRows`] without a press with a defined q.
     pub fn of(presses: &[Indication]) -> Result<IndicationSummary, CurveUndefined> {
         let mut sizes: Vec<f64> = presses
             .iter()
