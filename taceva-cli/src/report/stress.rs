@@ -276,7 +276,7 @@ fn common_reason(fault: &FaultReport) -> Option<Undefined> {
     is_common.then_some(reason)
 }
 
-/// Text on the severity at which skill ends, or on the two tested severities around this severity.
+/// Text on the severity at which skill ends, or on the tested severities that bound this severity.
 fn skill_end(fault: &FaultReport, breaks_at: Option<u8>) -> String {
     let tested = fault.severities.iter().map(|of| of.severity);
     let last = fault.severities.last().map(|of| of.severity);
