@@ -142,7 +142,7 @@ pub(crate) fn open_seen(
     })
 }
 
-/// Fails before any work if a file of `scoring` or `output` already exists and must not be replaced.
+/// Fails before any work if a file of `scoring` or `output` already exists and must not be replaced. Also rejects figure options without `--figures`.
 fn check_free(scoring: &ScoringArgs, output: &Output) -> anyhow::Result<()> {
     let files = output.path.iter().chain(&scoring.state_out);
     let files = files.chain(&scoring.page.path).chain(&scoring.samples_out);

@@ -105,7 +105,7 @@ impl Pace {
     }
 }
 
-/// Estimated remaining time at the current pace; `None` if too few steps are done.
+/// Estimated remaining time at the current pace; `None` before the first step and in the first second.
 fn left(done: u64, all: u64, elapsed: Duration) -> Option<Duration> {
     if done == 0 || done > all || elapsed < Duration::from_secs(1) {
         return None;

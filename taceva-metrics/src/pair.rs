@@ -40,7 +40,7 @@ impl Paired<f64> {
         self.reference - self.estimate
     }
 
-    /// The term of sMAPE: t = RN(|d| / RN(RN(RN(|y| + |ŷ|) × 0.5) + ε)); 0 for two zeros, because of ε.
+    /// Term |d| / ((|y| + |ŷ|) / 2 + ε) of sMAPE, rounded at every step; 0 for two zeros, because of ε.
     #[inline]
     pub fn symmetric_term(self) -> f64 {
         let scale = (self.reference.abs() + self.estimate.abs()) * 0.5 + EPSILON;

@@ -56,7 +56,7 @@ pub struct Score {
     pub n: u64,
     /// Number of samples skipped for an unusable value; for two channels the larger number.
     pub n_invalid: u64,
-    /// 95 % confidence interval of the value, over other choices of clusters (contact points).
+    /// 95 % confidence interval of the value, from its variation between clusters (contact points).
     pub interval: Interval,
     /// Name and version of the definition: `mae/1`.
     pub definition: &'static str,
@@ -112,7 +112,7 @@ pub struct Variant {
     pub unit: Unit,
     /// Range of possible values.
     pub range: Range,
-    /// 95 % confidence interval, over other choices of clusters (contact points); `None` if the kind of value has no interval, such as a map.
+    /// 95 % confidence interval, from the variation between clusters (contact points); `None` if the kind of value has no interval, such as a map.
     pub interval: Option<Interval>,
 }
 

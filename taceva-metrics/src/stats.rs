@@ -1,4 +1,4 @@
-//! Statistics: intervals of scores over choices of contact points, and tests for the difference of two scores.
+//! Statistics: intervals of scores from the variation between contact points, and tests for the difference of two scores.
 
 mod bootstrap;
 mod by_intervals;

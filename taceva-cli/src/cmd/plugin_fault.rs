@@ -1,4 +1,4 @@
-//! Fault of pictures that the estimator of a plugin makes: it predicts the pixel values of the faulty picture from the values of the original.
+//! Fault of pictures that the estimator of a plugin makes: the estimator predicts the pixel values of the faulty picture from the original.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, mpsc};

@@ -83,7 +83,7 @@ impl Context {
         Ok(interpreters)
     }
 
-    /// Callback that prints log lines of plugins on standard error: warnings always, all lines with `-v`.
+    /// Callback that prints log lines of plugins on standard error: errors and warnings, only errors with `--quiet`, all lines with `-v`.
     fn plugin_log(&self) -> PluginLog {
         let least = match (self.quiet, self.verbose) {
             (true, _) => Level::Error,

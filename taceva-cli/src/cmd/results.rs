@@ -96,7 +96,7 @@ fn meant(path: &Path) -> PathBuf {
     })
 }
 
-/// Studies of all results. A name is a file, the folder of a run, or otherwise a sensor of the catalogue.
+/// Studies of all results in `named`: files, folders of runs, or otherwise sensors of the catalogue.
 pub(super) fn find_all(named: &[PathBuf]) -> anyhow::Result<Found> {
     find_among(named, None)
 }

@@ -92,7 +92,7 @@ fn say_units(args: &Score, scored: &Scored, context: &Context) {
     }
 }
 
-/// True if only scores and state of all rows are requested. A plan would need the number of rows first.
+/// True if only scores and state of all rows are requested, without a shard or a plan. A plan needs the number of rows first.
 fn scores_alone(args: &Score, context: &Context) -> bool {
     args.shard.is_none() && !args.scoring.explain.is_wanted && !context.verbose
 }

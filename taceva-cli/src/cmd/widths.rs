@@ -105,9 +105,9 @@ fn reports(path: &Path, wanted: &[WantedWidth]) -> anyhow::Result<Vec<Evaluation
     Ok(results::reports(path)?.reports)
 }
 
-/// Result of the run `path` for each study of `planned`; `None` for a study without one.
+/// Result of the run `path` for each study of `planned`; `None` for a study without a result.
 ///
-/// A single result belongs to a single study, whatever their names: a run on the bench predicts a width on a rig.
+/// A single result is used for a single study even if their sensors differ: a run on the bench predicts a width on a rig.
 fn partners<'a>(
     path: &Path,
     planned: &PlannedScene,
@@ -129,7 +129,7 @@ fn partners<'a>(
     Ok(partners)
 }
 
-/// Result of the same sensor and the same first unit as `study`, on which its calibration presses are made. Stages of wear share both, in order.
+/// Result of the same sensor and the same first unit as `study`. The results of several stages of wear are in the order of the stages.
 fn partner<'a>(
     study: &PlannedStudy,
     reports: &'a [EvaluationReport],
@@ -273,7 +273,7 @@ fn tested(study: &PlannedStudy) -> Option<TestedPoints> {
     })
 }
 
-/// Model behind `report` in words, beside another model that `study` names. A report names the model of a preset, and the model that `auto` chose.
+/// Model behind `report` in words, with the model that `study` names if that model differs. `auto` and presets count as the model that they choose.
 fn model_of(report: &EvaluationReport, study: &PlannedStudy) -> String {
     let Some(fitted) = &report.provenance.model else {
         return String::new();

@@ -82,7 +82,7 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
     Ok(())
 }
 
-/// Prints sensors with equal shares of correctly classified gratings. For these sensors, computes the resolved spacing from samples.
+/// Prints the verdicts on sensors with equal shares of correctly classified gratings. These verdicts use the spacing resolved in the samples.
 fn ties(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Result<()> {
     let shares = |report: &EvaluationReport| -> Vec<(String, u64)> {
         let lines = lines(&report.scores).into_iter();

@@ -204,7 +204,7 @@ fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> St
     line
 }
 
-/// Shown differences of the added error from the added error of the reference model; empty if none is shown.
+/// Significant differences from the added error of the reference model, as text; empty if no difference is significant.
 fn verdicts(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> String {
     let sides = [("less", true), ("more", false)].into_iter();
     let words = sides.map(|(side, is_less)| {
@@ -268,7 +268,7 @@ fn spread(fault: &FaultReport, channels: &[&str]) -> String {
     }
 }
 
-/// Reason why no share that new untouched inputs remove is known; `None` if a share is known or the reasons differ.
+/// Common reason for unknown shares of the error that new untouched inputs remove; `None` if a share is known or the reasons differ.
 fn common_reason(fault: &FaultReport) -> Option<Undefined> {
     let reason = fault.recovers.values().next()?.reason?;
     let mut shares = fault.recovers.values();
@@ -276,7 +276,7 @@ fn common_reason(fault: &FaultReport) -> Option<Undefined> {
     is_common.then_some(reason)
 }
 
-/// Text on the severity at which skill ends, or on the tested severities that bound it.
+/// Text on the severity at which skill ends, or on the tested severities that bound this severity.
 fn skill_end(fault: &FaultReport, breaks_at: Option<u8>) -> String {
     let tested = fault.severities.iter().map(|of| of.severity);
     let last = fault.severities.last().map(|of| of.severity);

@@ -73,7 +73,7 @@ fn agreement(errors: &Errors<'_>, unit: Unit) -> Numbers {
         .with(SLOPE_P, Unit::One, Range::Any, chance)
 }
 
-/// Replaces the intervals of independent errors by exact intervals, and computes the p value of a slope of clusters.
+/// Replaces the intervals of independent errors by exact intervals, and computes the p value of the slope of clustered errors.
 fn settle(found: &mut Intervals, whole: &Whole<'_>) {
     let none = Interval::Undefined(UndefinedReason::NoInterval);
     if !whole.are_independent {

@@ -30,7 +30,7 @@ pub(crate) static BIAS: Metric = Metric {
     ..Metric::of(&PAIRS)
 };
 
-/// RN(Sd / n).
+/// Sum of the residuals divided by the number of pairs, rounded once.
 fn bias(sums: &PairSums) -> Finished {
     Ok(sums.mean(Stream::Residual))
 }

@@ -30,7 +30,7 @@ pub(crate) static MAE: Metric = Metric {
     ..Metric::of(&PAIRS)
 };
 
-/// RN(S|d| / n).
+/// Sum of the absolute residuals divided by the number of pairs, rounded once.
 fn mae(sums: &PairSums) -> Finished {
     Ok(sums.mean(Stream::Absolute))
 }

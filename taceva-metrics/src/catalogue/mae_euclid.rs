@@ -27,7 +27,7 @@ pub(crate) static MAE_EUCLID: Metric = Metric {
     ..Metric::of(&PLANE)
 };
 
-/// RN(Se / n), with e the distance of each sample.
+/// Sum of the distances divided by the number of samples, rounded once.
 fn mae_euclid(sums: &PlaneSums) -> Finished {
     if sums.n() == 0 {
         return Err(UndefinedReason::Empty);

@@ -49,7 +49,7 @@ fn gate(_: Unit) -> Vec<Parameter> {
     }]
 }
 
-/// δ(n − 1) √(1 + 1/n) s.
+/// δ(n − 1) √(1 + 1/n) s for n predictions with the standard deviation s, δ by [`detection_factor`].
 fn noise_equivalent_force(predictions: &Moments, unit: Unit) -> Numbers {
     let times = |factor: fn(f64) -> f64| -> Finished {
         enough(predictions)?;

@@ -48,7 +48,7 @@ fn limit_factor(_: Unit) -> Vec<Parameter> {
     }]
 }
 
-/// Rep = RN(Σ s_c / cells) over the cells c with two repeats, s_c = √RN((n Sqq − Sq²) / (n (n − 1))).
+/// Mean of the sample standard deviations of cells with at least two repeats, rounded once.
 fn repeatability(spreads: &SpreadSums, unit: Unit) -> Numbers {
     let pooled = spreads.pooled();
     Numbers::of(spreads.mean(|spread| spread.deviation))

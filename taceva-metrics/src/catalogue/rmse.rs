@@ -30,7 +30,7 @@ pub(crate) static RMSE: Metric = Metric {
     ..Metric::of(&PAIRS)
 };
 
-/// RN(√(Sdd / n)): the root of the exact quotient, rounded once, even if the quotient is out of range.
+/// Root of the exact mean of squared residuals, rounded once, even if this mean is out of range.
 fn rmse(sums: &PairSums) -> Finished {
     Ok(sums.root_mean_square(Stream::Squared))
 }

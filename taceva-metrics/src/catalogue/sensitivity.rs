@@ -39,7 +39,7 @@ pub(crate) static SENSITIVITY: Metric = Metric {
     ..Metric::of(&SURFACE)
 };
 
-/// S = RN(Σ s / n) with s = RN(Δz / F); slope = RN(Σ Δz F / Σ F²).
+/// Mean of the compliances Δz / F, indentation over normal force. The slope is Σ Δz F / Σ F².
 fn sensitivity(sums: &SurfaceSums) -> Numbers {
     let unit = Unit::MillimetrePerNewton;
     let slope = contact(sums).map(|()| {

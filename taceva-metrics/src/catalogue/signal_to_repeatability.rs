@@ -37,8 +37,8 @@ pub(crate) static SIGNAL_TO_REPEATABILITY: Metric = Metric {
     ..Metric::of(&REPEATS)
 };
 
-/// s / s_r with s² = s_m² − s_r² mean(1 / n_c), and s_m the standard deviation of the cells' means. 0 if the scatter of repeats explains
-/// the spread of the means.
+/// Spread of the cell means beyond the scatter of repeats, divided by the pooled spread of repeats. 0 if the scatter of repeats explains the
+/// spread of the means.
 fn signal_to_repeatability(spreads: &SpreadSums) -> Numbers {
     let ratio = || -> Finished {
         let (signal, noise) = (spreads.signal()?, spreads.pooled()?);

@@ -48,9 +48,9 @@ pub(crate) static SKILL: Metric = Metric {
 /// Streams that skill needs.
 const STREAMS: Streams = Streams::of(&[Stream::Squared, Stream::Truth, Stream::TruthSquared]);
 
-/// RN(1 − Σ Sdd / Σ Scc) over the axes, with Scc = Syy − 2 c Sy + n c² for a given constant c, or Syy − Sy² / n for the mean of truth.
+/// 1 − (squared errors of the model) / (squared errors of the constant), each summed over the axes, rounded once.
 ///
-/// Each axis has its own number of pairs. If both axes have all pairs, Sdd and Scc are sums of squared distances in the plane.
+/// Each axis has its own number of pairs. If both axes have all pairs, both sums are sums of squared distances in the plane.
 fn skill(axes: &[Axis<'_>]) -> Finished {
     let mut total = Parts {
         scale: Dyadic::from(1),

@@ -37,7 +37,7 @@ pub(crate) static SMAPE: Metric = Metric {
     ..Metric::of(&PAIRS)
 };
 
-/// RN(St / n).
+/// Sum of the terms of sMAPE divided by the number of pairs, rounded once.
 fn smape(sums: &PairSums) -> Finished {
     Ok(sums.mean(Stream::Symmetric))
 }

@@ -52,7 +52,7 @@ pub(crate) static UNIFORMITY: Metric = Metric {
 /// Variant that decides verdicts.
 const DEBIASED: &str = "debiased";
 
-/// U = RN(1 / (1 + σ/|μ|)) over the cells with at least `n_min` samples.
+/// Uniformity 1 / (1 + σ/|μ|), with the mean μ and standard deviation σ of the mean compliances of cells with at least `n_min` samples.
 fn uniformity(sums: &SurfaceSums, settings: &Settings) -> Numbers {
     let Settings { n_min, ddof, .. } = *settings;
     if let Err(reason) = contact(sums).and_then(|()| on_surface(sums)) {
@@ -120,7 +120,7 @@ fn on_surface(sums: &SurfaceSums) -> Result<(), UndefinedReason> {
     Ok(())
 }
 
-/// RN(|μ| / (|μ| + σ)), rounded once from two binary64 numbers.
+/// Uniformity |μ| / (|μ| + σ) of the mean μ and the standard deviation σ, rounded once.
 fn ratio(mean: f64, deviation: f64) -> Finished {
     if !deviation.is_finite() {
         return Err(UndefinedReason::Overflow);

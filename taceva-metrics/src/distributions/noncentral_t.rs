@@ -44,7 +44,7 @@ fn is_defined(t: f64, freedom: f64, noncentrality: f64) -> bool {
     freedom > 0.0 && freedom.is_finite() && t.is_finite() && noncentrality.is_finite()
 }
 
-/// P(T′ ≤ t) for `freedom` degrees of freedom above 0 and any noncentrality.
+/// Probability P(T′ ≤ t) of a noncentral T′, for `freedom` degrees of freedom above 0 and any noncentrality.
 ///
 /// ```
 /// use taceva_metrics::distributions::{noncentral_t, normal};
@@ -59,7 +59,7 @@ pub fn below(t: f64, freedom: f64, noncentrality: f64) -> f64 {
     }
 }
 
-/// P(T′ > t). A small result has full relative accuracy.
+/// Probability P(T′ > t) of a noncentral T′. A small result has full relative accuracy.
 ///
 /// ```
 /// use taceva_metrics::distributions::{noncentral_t, student_t};
@@ -74,7 +74,7 @@ pub fn above(t: f64, freedom: f64, noncentrality: f64) -> f64 {
     }
 }
 
-/// Quantile: t with P(T′ ≤ t) = `share`.
+/// Quantile: t with P(T′ ≤ t) = `share` for a noncentral T′.
 ///
 /// ```
 /// use taceva_metrics::distributions::{noncentral_t, normal};
@@ -101,7 +101,7 @@ pub fn quantile(share: f64, freedom: f64, noncentrality: f64) -> f64 {
     }
 }
 
-/// Noncentrality for which P(T′ ≤ `t`) = `share`.
+/// Noncentrality of T′ for which P(T′ ≤ `t`) = `share`.
 ///
 /// ```
 /// use taceva_metrics::distributions::noncentral_t;

@@ -6,7 +6,7 @@ use super::gamma::gamma_tails;
 use crate::elementary::exponential;
 use crate::elementary::logarithm;
 
-/// P(Z ≤ z).
+/// Probability P(Z ≤ z) of a standard normal Z.
 ///
 /// ```
 /// use taceva_metrics::distributions::normal;
@@ -17,7 +17,7 @@ pub fn below(z: f64) -> f64 {
     above(-z)
 }
 
-/// P(Z > z). A small result has full relative accuracy.
+/// Probability P(Z > z) of a standard normal Z. A small result has full relative accuracy.
 ///
 /// ```
 /// use taceva_metrics::distributions::normal;

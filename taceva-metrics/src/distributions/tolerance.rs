@@ -53,8 +53,9 @@ pub fn one_sided_factor(n: f64, freedom: f64, share: f64, confidence: f64) -> Op
 /// ```
 #[must_use]
 pub fn two_sided_factor(n: f64, freedom: f64, share: f64, confidence: f64) -> Option<f64> {
-    /// Greatest error of the mean, in standard deviations of the mean, and width of a panel.
+    /// Greatest error of the mean, in standard deviations of the mean.
     const FAR: f64 = 9.0;
+    /// Width of a panel of the integral, in standard deviations of the mean.
     const WIDTH: f64 = 0.75;
     if !is_valid(n, freedom, share, confidence) {
         return None;

@@ -186,7 +186,7 @@ impl Numbers {
         found.map_or(Err(UndefinedReason::Empty), |variant| variant.value)
     }
 
-    /// RN of the exact mean of both sides, number by number. An error on either side gives an error.
+    /// Mean of each number with the number of the same name in `other`, rounded once. An error in either gives an error.
     pub(crate) fn mean(self, other: &Numbers) -> Numbers {
         let mean = |left: Finished, right: Finished| Ok(midpoint(left?, right?));
         let variants = self.variants.into_iter().map(|variant| Number {
@@ -208,7 +208,8 @@ fn finite(value: f64) -> Finished {
     }
 }
 
-/// RN((a + b) / 2). Halving is exact unless the sum is tiny, and a tiny sum is exact. If the sum overflows, halving each number first is exact.
+/// Mean of both numbers, rounded once. Halving is exact unless the sum is tiny, and a tiny sum is exact. If the sum overflows, each number is
+/// halved first, exactly.
 pub(crate) fn midpoint(left: f64, right: f64) -> f64 {
     let sum = left + right;
     if sum.is_finite() {

@@ -52,7 +52,7 @@ fn of_skill_score(skill: &Score) -> Standing {
     Standing::of_value(low_end(skill), skill.value.scalar())
 }
 
-/// Lower end of the interval of a score; `None` without an interval.
+/// Lower end of the interval of a score, or its value if the value is at an end of its range in every cluster; otherwise `None`.
 fn low_end(score: &Score) -> Option<f64> {
     match score.interval {
         // A value at the end of its range in every cluster, as for a model without errors, is its own lower end.
@@ -115,8 +115,8 @@ fn beside_chance(metric: &Metric, score: &Score) -> Standing {
     }
 }
 
-/// Standing of a share within a tolerance: a score does not count unless its interval is above the share of the skill's constant. Without a
-/// known constant, skill alone decides.
+/// Standing of a share within a tolerance: a score does not count unless its interval is above the share of a constant prediction. Without
+/// a known constant, skill alone decides.
 fn beside_constant(metric: &Metric, score: &Score) -> Standing {
     match (metric.verdict, of_share(score)) {
         (VerdictRule::ShareBesideConstant, Standing::NoSkill) => Standing::NotAboveConstant,

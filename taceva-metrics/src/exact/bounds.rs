@@ -110,8 +110,8 @@ impl Bounds {
 
 /// Least exponent of a residual whose sMAPE term fits the grid.
 ///
-/// The divisor (|y| + |ŷ|) / 2 + ε is below |y| + |d| + ε up to rounding. With m the greatest exponent of these three terms, the divisor is below
-/// 2^(m+3); ε is below 2⁻²⁶.
+/// With d = y − ŷ, the divisor (|y| + |ŷ|) / 2 + ε is below |y| + |d| + ε up to rounding. With m the greatest exponent of these three terms, the
+/// divisor is below 2^(m+3); ε is below 2⁻²⁶.
 fn least_residual_of_terms(residual: i32, truth: i32) -> i32 {
     let divisor = residual.max(truth).max(-27) + 3;
     TERMS.top - Grid::REACH + divisor

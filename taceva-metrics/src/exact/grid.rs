@@ -8,10 +8,10 @@ use super::vector::Vector;
 
 /// Greatest number of values added to a lane before its units must be read.
 pub(super) const DEPTH: usize = 128;
-/// Exponent offset of the coarse sum, which leaves room at the ends of the binade: 2⁷ values below 2^(e+1), a factor of 2 for 1.5 × 2ᵏ, and 2
-/// in reserve.
+/// Exponent offset of the coarse sum from the greatest exponent e of a value. Room at the ends of the binade: 2⁷ values below 2^(e+1), a factor
+/// of 2 for 1.5 × 2ᵏ, and 2 in reserve.
 const COARSE: i32 = 10;
-/// Exponent offset of the fine sum. Cut-off parts are below 2^(e−42), and 2⁷ of them leave room at the ends of the binade.
+/// Exponent offset of the fine sum from the greatest exponent e of a value. 2⁷ cut-off parts below 2^(e−42) leave room in the binade.
 const FINE: i32 = -34;
 /// Bits of a mantissa after the leading bit.
 const FRACTION: i32 = 52;

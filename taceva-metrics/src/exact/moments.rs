@@ -4,7 +4,7 @@ use crate::exact::merge::Merge;
 use crate::exact::record::Record;
 use crate::exact::{Dyadic, ExactSum};
 
-/// Count and exact sums of values and of their squares. RN(x) is the binary64 nearest to x.
+/// Count and exact sums of values and of their squares.
 ///
 /// ```
 /// use taceva_metrics::Moments;
@@ -39,12 +39,12 @@ impl Moments {
         self.squares.merge(&other.squares);
     }
 
-    /// RN(S / n); `None` for no value.
+    /// Mean, rounded once; `None` for no value.
     pub fn mean(&self) -> Option<f64> {
         (self.n > 0).then(|| self.sum.to_dyadic().over(&Dyadic::from(self.n)))
     }
 
-    /// RN((n Sqq − S²) / (n (n − ddof))); `None` for `ddof` values or fewer.
+    /// Variance with the divisor n − `ddof`, rounded once; `None` for `ddof` values or fewer.
     pub(crate) fn variance(&self, ddof: u64) -> Option<f64> {
         let freedom = self.n.checked_sub(ddof).filter(|freedom| *freedom > 0)?;
         Some(
@@ -53,17 +53,17 @@ impl Moments {
         )
     }
 
-    /// RN(√variance); `None` for `ddof` values or fewer.
+    /// Standard deviation: root of the rounded [`variance`](Moments::variance); `None` for `ddof` values or fewer.
     pub(crate) fn deviation(&self, ddof: u64) -> Option<f64> {
         self.variance(ddof).map(f64::sqrt)
     }
 
-    /// RN(Σ (q − mean)²) with the exact mean; `None` for no value.
+    /// Sum of squared deviations from the exact mean, rounded once; `None` for no value.
     pub(crate) fn squared_deviations(&self) -> Option<f64> {
         (self.n > 0).then(|| self.scaled_spread().over(&Dyadic::from(self.n)))
     }
 
-    /// n Sqq − S², exactly.
+    /// n Σ q² − (Σ q)² of the n values q, exactly.
     pub(crate) fn scaled_spread(&self) -> Dyadic {
         let sum = self.sum.to_dyadic();
         &(&Dyadic::from(self.n) * &self.squares.to_dyadic()) - &(&sum * &sum)

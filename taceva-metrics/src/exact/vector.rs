@@ -17,21 +17,21 @@ pub(crate) trait Vector: Copy {
     /// If the number of `values` differs from [`LANES`](Vector::LANES).
     fn load(proof: Self::Proof, values: &[f64]) -> Self;
 
-    /// RN(self + other).
+    /// self + other, rounded.
     fn plus(self, other: Self) -> Self;
-    /// RN(self + other) on the less busy unit: the multiplier computes self + other × one.
+    /// self + other, rounded, on the less busy unit: the multiplier computes self + other × one.
     ///
     /// `one` is 1 in every lane. The compiler must not see this value, because it would replace the product by an addition.
     fn plus_aside(self, other: Self, one: Self) -> Self;
-    /// RN(self − other).
+    /// self − other, rounded.
     fn minus(self, other: Self) -> Self;
-    /// RN(self × other).
+    /// self × other, rounded.
     fn times(self, other: Self) -> Self;
-    /// RN(self / other).
+    /// self / other, rounded.
     fn over(self, other: Self) -> Self;
     /// |self|.
     fn magnitude(self) -> Self;
-    /// RN(self × other) and its rounding error, which is exact without over- and underflow.
+    /// Rounded product self × other, and its rounding error, which is exact without over- and underflow.
     fn product(self, other: Self) -> [Self; 2];
 
     /// Lane-wise maximum; `other` if a number is NaN.
@@ -71,7 +71,7 @@ pub(crate) trait Vector: Copy {
 
 /// Computation that is generic over the vector width.
 pub(crate) trait Job {
-    /// Result of the work.
+    /// Result of the computation.
     type Output;
     /// Runs the computation. Always inlined, so that it is compiled with the instructions of the vectors.
     fn run<V: Vector>(self, proof: V::Proof) -> Self::Output;

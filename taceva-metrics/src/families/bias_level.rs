@@ -81,7 +81,7 @@ pub(crate) struct LevelSums {
     levels: SortedMap<i64, LevelErrors>,
 }
 
-/// Count and exact sum of d = RN(y − ŷ) at one level.
+/// Count and exact sum of the residuals at one level.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct LevelErrors {
     n: u64,
@@ -94,13 +94,13 @@ impl LevelErrors {
         self.errors.add(error);
     }
 
-    /// RN(Sd / n).
+    /// Mean residual, rounded once.
     fn mean(&self) -> f64 {
         self.errors.to_dyadic().over(&Dyadic::from(self.n))
     }
 }
 
-/// max |RN(Sd / n)| over the levels with enough samples.
+/// Greatest magnitude of the mean residual over the levels with enough samples.
 fn greatest_bias(sums: &LevelSums) -> Finished {
     match (sums.n, sums.n_invalid) {
         (0, 0) => return Err(UndefinedReason::Empty),

@@ -44,7 +44,7 @@ impl CellKey {
     }
 }
 
-/// Summaries by cell. Copies share the summaries, so each is computed once.
+/// Summaries by cell. Copies of one contact point share a summary, so its statistics are computed once.
 ///
 /// One row without a contact point merges all cells permanently, because the presses cannot be grouped. The result depends only on
 /// the set of rows.

@@ -46,7 +46,7 @@ pub(crate) static KIND: FamilyKind = FamilyKind::new("taceva.drifts/1", |plan| {
 /// Errors over time.
 pub(crate) struct Drifts;
 
-/// Sums of one channel: t the time in s, d = RN(y − ŷ).
+/// Sums of one channel, with the time t in s and the residual d.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct DriftSums {
     n: u64,
@@ -55,7 +55,7 @@ pub(crate) struct DriftSums {
     sums: [ExactSum; 4],
 }
 
-/// RN(3600 (n Std − St Sd) / (n Stt − St²)).
+/// Slope of the residuals over time, per hour, rounded once.
 fn drift(sums: &DriftSums) -> Finished {
     match sums.n {
         0 => return Err(UndefinedReason::Empty),

@@ -113,7 +113,7 @@ impl Intrinsic {
         (!any).then_some(SkipReason::FieldAbsent(Field::Stamp))
     }
 
-    /// True place of the sample at `row`, mm; `None` without contact.
+    /// True place of the sample at `row`, mm; `None` without contact or place.
     fn contact_mm(&self, batch: &Batch, row: usize) -> Option<[f64; 2]> {
         let [x, y] = self.place?;
         self.contact?.at(batch, row).filter(|contact| *contact)?;

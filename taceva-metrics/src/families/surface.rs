@@ -75,7 +75,7 @@ impl Surface {
         })
     }
 
-    /// Cell of the sample at `row`; `None` if a coordinate is not a usable number.
+    /// Place of the sample at `row`; `None` if a coordinate is not a usable number. A missing coordinate gives [`Place::Unknown`].
     fn place(&self, batch: &Batch, row: usize) -> Option<Place> {
         let (Some(grid), Some([x, y])) = (&self.grid, self.place) else {
             return Some(Place::Unknown);

@@ -141,7 +141,7 @@ impl OfConstant {
 }
 
 impl ErrorCounts {
-    /// RN of the share of errors within the tolerance at index `position`.
+    /// Share of errors within the tolerance at index `position`, rounded once.
     fn share(&self, position: usize) -> Finished {
         match (self.n, self.n_invalid) {
             (0, 0) => return Err(UndefinedReason::Empty),

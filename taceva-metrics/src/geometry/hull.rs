@@ -70,7 +70,7 @@ impl Hull {
         self.extend(other.corners.iter().copied());
     }
 
-    /// RN of the area; 0 for a flat hull.
+    /// Area, rounded once; 0 for a flat hull.
     pub(crate) fn area(&self) -> f64 {
         // Halving is exact except for subnormal areas, whose last bit does not matter.
         doubled_area(&self.corners).to_f64() * 0.5

@@ -9,14 +9,14 @@ pub(crate) type Place = [f64; 2];
 
 /// Turn from `start` over `middle` to `end`: `Greater` to the left, `Less` to the right, `Equal` on one line.
 ///
-/// The result is the sign of (bx − ax)(cy − ay) − (by − ay)(cx − ax). Rounded arithmetic determines the sign in nearly every case. Otherwise the
-/// six products of the expanded determinant are summed exactly.
+/// The result is the sign of (bx − ax)(cy − ay) − (by − ay)(cx − ax) for a turn from a over b to c. Rounded arithmetic determines the sign in
+/// nearly every case. Otherwise the six products of the expanded determinant are summed exactly.
 ///
 /// # Reference
 /// Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates (1997), the bound A of
 /// `ORIENT2D`.
 pub(crate) fn turn(start: Place, middle: Place, end: Place) -> Ordering {
-    /// (3 + 16 ε) ε, ε = 2⁻⁵³.
+    /// Bound on the relative rounding error of the turn: (3 + 16 ε) ε, ε = 2⁻⁵³.
     const BOUND: f64 = (3.0 + 16.0 * EPSILON) * EPSILON;
     const EPSILON: f64 = f64::EPSILON / 2.0;
     /// Least product that cannot have lost bits by underflow, which the bound ignores.
@@ -31,7 +31,7 @@ pub(crate) fn turn(start: Place, middle: Place, end: Place) -> Ordering {
     exact_turn(start, middle, end)
 }
 
-/// The sign of ax·by − ay·bx + bx·cy − by·cx + cx·ay − cy·ax.
+/// Sign of the doubled signed area of the triangle, computed exactly.
 fn exact_turn(start: Place, middle: Place, end: Place) -> Ordering {
     let mut determinant = ExactSum::default();
     for (from, to) in [(start, middle), (middle, end), (end, start)] {

@@ -193,7 +193,7 @@ pub enum UndefinedReason {
     NoInterval,
     /// The score is a maximum of several numbers, and resampling does not show its variation.
     Greatest,
-    /// The value of every cluster is at the end of its range, so the variation is unknown.
+    /// The value is at an end of its range, also with any one cluster left out, so the variation is unknown.
     AtEnd,
     /// The mean is zero, so no ratio to it exists.
     ZeroMean,

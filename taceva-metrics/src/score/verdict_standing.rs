@@ -31,8 +31,8 @@ pub enum Standing {
     LowStimulus,
     /// Excluded: the interval of the deciding variant contains the value of chance alone.
     NotAboveNoiseFloor,
-    /// Excluded: a share whose interval is not above the share of the skill's constant. The model may still have the smaller mean squared
-    /// error.
+    /// Excluded: a share whose interval is not above the share of the constant prediction with which skill compares the model. The model may still
+    /// have the smaller mean squared error.
     NotAboveConstant,
     /// Excluded: better than a constant, but without an interval that shows more than chance.
     NoInterval,
@@ -59,7 +59,7 @@ impl Standing {
         matches!(self, Standing::Counts | Standing::SkillUnknown)
     }
 
-    /// Words for files and programs; `None` for a score that counts. [`Standing::phrase`] returns words for readers.
+    /// Words for files and programs; `None` for [`Standing::Counts`]. [`Standing::phrase`] returns words for readers.
     ///
     /// ```
     /// use taceva_metrics::Standing;
@@ -80,7 +80,7 @@ impl Standing {
         }
     }
 
-    /// Words for readers, printed next to a value; `None` for a score that counts.
+    /// Words for readers, printed next to a value; `None` for [`Standing::Counts`].
     ///
     /// ```
     /// use taceva_metrics::Standing;

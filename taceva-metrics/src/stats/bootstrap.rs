@@ -1,4 +1,4 @@
-//! Poisson bootstrap: variation of a score over choices of contact points.
+//! Poisson bootstrap: variation of a score over resampled contact points.
 
 use super::ends::{Ends, Estimated, Moved};
 use super::poisson::weight;

@@ -21,7 +21,7 @@ use crate::pair::Paired;
 pub struct ClusterSum {
     /// Number of samples.
     pub n: u64,
-    /// Σ|d| in the unit of the channel, or the number of correct predictions.
+    /// Sum of the absolute errors in the unit of the channel, or number of correct predictions.
     pub sum: ExactSum,
 }
 
@@ -64,7 +64,7 @@ impl ClusterSums {
         Ok(())
     }
 
-    /// Adds |d| of each pair of the channel at `position`, by contact point.
+    /// Adds the absolute error of each pair of the channel at `position`, by contact point.
     ///
     /// Rows without a value are skipped. Invalid pairs are skipped and counted in [`n_invalid`](ClusterSums::n_invalid).
     ///

@@ -27,7 +27,7 @@ pub struct Difference {
     pub value: f64,
     /// Both scores.
     pub scores: Sides<f64>,
-    /// Standard error of the difference over choices of clusters, and over trainings if their spread is given.
+    /// Standard error of the difference between clusters, and between trainings if their spread is given.
     pub standard_error: f64,
     /// Differences that the test at `1 − confidence` does not reject. The interval excludes 0 exactly if a difference is shown. An end is infinite
     /// if the clusters are too few to reject any difference on that side.

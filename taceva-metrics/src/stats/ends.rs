@@ -18,7 +18,7 @@ pub(crate) struct Estimated {
     pub(crate) samples: u64,
 }
 
-/// Variation of an estimate over choices of clusters.
+/// Variation of an estimate between clusters.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Moved {
     /// Standard error, in the unit of the quantity.
@@ -68,8 +68,8 @@ impl Estimated {
     /// With s the standard error and h = t(freedom) × s, the ends are value ± h for a range without bounds. For a bound at distance d, with s and t
     /// of the logarithm of d, the ends are d e^(±h) from the bound. Between two bounds the same formula applies to the odds of the value. If s is
     /// known only in the unit of the quantity, the logarithm of d has the standard error s / d to first order. For a quantity that may equal a bound,
-    /// value ± h is cut at the bound. Shares use Wilson's interval with t for z and n* = p (1 − p) / s² samples for n, at most the actual number. If
-    /// all shares are 0, or all are 1, n* is the number of clusters.
+    /// value ± h is cut at the bound. Shares p use Wilson's interval with t for z and n* = p (1 − p) / s² samples for n, at most the actual number.
+    /// If all shares are 0, or all are 1, n* is the number of clusters.
     ///
     /// # Errors
     /// [`UndefinedReason::AtEnd`] if the value is at an end of its range, with and without any cluster;

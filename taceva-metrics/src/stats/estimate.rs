@@ -10,7 +10,7 @@ use crate::score::least::LEAST_CLUSTERS;
 use crate::score::value::{InapplicableReason, UndefinedReason, Value};
 use crate::score::{COVERAGE, Interval, Scale, Score};
 
-/// A score, its variation over choices of clusters, and the number of clusters.
+/// A score, its variation between clusters, and the number of clusters.
 ///
 /// ```
 /// use taceva_metrics::Estimate;
@@ -300,7 +300,7 @@ fn nearest(shapes: [Option<(f64, Shape)>; 2]) -> Option<Shape> {
     nearest.map(|(_, shape)| shape)
 }
 
-/// Number of samples for which Wilson's interval has these ends: (p − L)² = t² L (1 − L) / n at either end L.
+/// Number of samples for which Wilson's interval has these ends: (p − L)² = t² L (1 − L) / n for the share p at either end L.
 fn share(value: f64, [low, high]: [f64; 2], t: f64) -> Option<Shape> {
     let end = if value - low > high - value {
         low

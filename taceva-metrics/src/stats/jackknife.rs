@@ -1,4 +1,4 @@
-//! Delete-one-cluster jackknife: variation of a score over choices of contact points.
+//! Delete-one-cluster jackknife: variation of a score between contact points.
 
 use super::ends::{Ends, Estimated, Moved};
 use crate::count::as_f64;
@@ -89,7 +89,7 @@ pub(crate) fn interval(value: f64, range: Range, left_out: &[LeftOut]) -> Interv
     }
 }
 
-/// Standard error and degrees of freedom of the same jackknife on the unbounded scale; `None` unless all scores have a value there.
+/// Standard error and degrees of freedom of the jackknife on the unbounded scale of the score; `None` unless all scores have a value there.
 ///
 /// A score of few clusters is skewed: a cluster with large errors raises the score more by its presence than it lowers the score by its
 /// absence. The standard error would then depend on the value of the score; on the unbounded scale the standard error does not (`docs/coverage.md`).
@@ -113,7 +113,7 @@ pub(crate) fn standard_error(value: f64, left_out: &[LeftOut]) -> Result<f64, Un
 
 /// Standard error of `value`, the score of all clusters, and its degrees of freedom.
 ///
-/// With n samples, m_j of them in cluster j, h_j = n / m_j and θ_(−j) the score without cluster j: the pseudo-values are
+/// With n samples in g clusters, m_j of them in cluster j, h_j = n / m_j, the score θ, and the score θ_(−j) without cluster j: the pseudo-values are
 /// h_j θ − (h_j − 1) θ_(−j), and the variance is the mean of z_j², z_j² = (pseudo_j − mean)² / (h_j − 1).
 ///
 /// A variance from few clusters is itself uncertain. With κ = mean(z⁴) / mean(z²)² the variance has 2 g / (κ − (g − 3)/(g − 1)) degrees of freedom.

@@ -9,7 +9,7 @@ const RISK: f64 = 0.05;
 /// δ(ν): smallest difference from zero, in standard deviations, with 5 % risk of a false alarm and 5 % risk of a missed detection. The
 /// standard deviation is estimated with `freedom` degrees of freedom.
 ///
-/// The noncentrality at which P(t′ ≤ t) = 5 % for the 95 % quantile t of Student's distribution; 3.29 for a known deviation.
+/// δ(ν) is the noncentrality of t′ at which P(t′ ≤ t) = 5 % for the 95 % quantile t of Student's distribution; 3.29 for a known deviation.
 ///
 /// # Reference
 /// Currie, Pure and Applied Chemistry 67 (1995), 3.7.2; ISO 11843-2, 5.1.
@@ -34,7 +34,7 @@ pub(crate) fn critical_factor(freedom: f64) -> f64 {
     quantile(1.0 - 2.0 * RISK, freedom)
 }
 
-/// P(t′ ≤ t) for t ≥ 0, with `freedom` degrees of freedom and the noncentrality δ ≥ 0.
+/// P(t′ ≤ t) of a noncentral t′ for t ≥ 0, with ν = `freedom` degrees of freedom and the noncentrality δ ≥ 0.
 ///
 /// With y = δ² / 2, Poisson's shares pⱼ = e^(−y) yʲ / j! and qⱼ = δ e^(−y) yʲ / (√2 Γ(j + 3/2)) and the incomplete beta function I of
 /// x = t² / (ν + t²) the result is ½ (1 + Σ pⱼ Iₓ(j + ½, ν/2) − Σ qⱼ (1 − Iₓ(j + 1, ν/2))), since Σ qⱼ = 1 − 2 Φ(−δ).

@@ -8,7 +8,7 @@ use crate::exact::{Dyadic, ExactSum};
 use crate::score::least::LEAST_CLUSTERS;
 use crate::score::value::UndefinedReason;
 
-/// Difference of means, with its standard error over choices of clusters.
+/// Difference of means, with its jackknife standard error over clusters.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MeanDifference {
     pub(super) value: f64,
@@ -66,12 +66,12 @@ impl PairedClusters {
         &self.counts
     }
 
-    /// Σ of A minus Σ of B for each cluster, in the order of names.
+    /// Sum of the terms of A minus sum of the terms of B, for each cluster in the order of names.
     pub(super) fn differences(&self) -> &[ExactSum] {
         &self.differences
     }
 
-    /// Difference of the means over all samples, with its standard error over choices of clusters.
+    /// Difference of the means over all samples, with its jackknife standard error over clusters.
     pub(super) fn mean_difference(&self) -> Result<MeanDifference, ComparisonError> {
         let clusters = self.counts.len();
         if clusters < LEAST_CLUSTERS {
@@ -114,7 +114,7 @@ impl PairedClusters {
     }
 }
 
-/// RN(sum / n).
+/// Mean from an exact sum, rounded once.
 fn mean(sum: &ExactSum, n: u64) -> Result<f64, UndefinedReason> {
     if n == 0 {
         return Err(UndefinedReason::Empty);

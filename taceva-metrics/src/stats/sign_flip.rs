@@ -11,9 +11,10 @@ use crate::exact::Dyadic;
 
 /// Test of equal errors of two models on the same samples.
 ///
-/// Let D_c = Σ|d_A| − Σ|d_B| of cluster c and T = Σ_c D_c. For equal models each D_c could have the opposite sign with equal probability, so |T|
-/// has the distribution of |T*| = |Σ_c ± D_c|. Over N random patterns of signs, p = (1 + #{|T*| ≥ |T|}) / (1 + N). If the number of all
-/// patterns, 2^G, is at most N, p is the share of all patterns with |T*| ≥ |T|. Sums and comparisons are exact, so ties are exact.
+/// Let D_c = Σ|d_A| − Σ|d_B| for the errors d of models A and B in cluster c, and T = Σ_c D_c. For equal models each D_c could have the
+/// opposite sign with equal probability, so |T| has the distribution of |T*| = |Σ_c ± D_c|. Over N random patterns of signs,
+/// p = (1 + #{|T*| ≥ |T|}) / (1 + N). If the number of all patterns of G clusters, 2^G, is at most N, p is the share of all
+/// patterns with |T*| ≥ |T|. Sums and comparisons are exact, so ties are exact.
 ///
 /// Flip i negates the c-th cluster, in the order of names, if bit c mod 64 of the hash of (seed, i, ⌊c / 64⌋) is set. The result depends
 /// only on the samples, the seed and the number of flips. Exchanging A and B does not change p.
@@ -161,7 +162,7 @@ struct Tried {
 
 /// Clusters for the means over both halves of a pattern.
 struct Halves {
-    /// Number of samples, and Σ of A minus Σ of B, for each cluster.
+    /// Number of samples, and sum of the terms of A minus sum of the terms of B, for each cluster.
     clusters: Vec<[f64; 2]>,
 }
 

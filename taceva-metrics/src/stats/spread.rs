@@ -8,11 +8,11 @@ use crate::score::value::{Finished, UndefinedReason};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bin {
     n: u64,
-    /// m_b = RN of the exact mean.
+    /// Mean, rounded once.
     pub(crate) mean: f64,
-    /// RN(Σ (q − m_b)²).
+    /// Sum of squared deviations from the exact mean, rounded once.
     squares: f64,
-    /// RN(STD), ddof 0.
+    /// Standard deviation with the divisor n.
     deviation: f64,
 }
 
@@ -33,19 +33,17 @@ impl Bin {
     }
 }
 
-/// Means m_b of bins, and the scatter within the bins.
-///
-/// Each m_b is RN of an exact mean. Further arithmetic on these binary64 numbers is exact, except for the roundings marked RN.
+/// Rounded means of bins, and the scatter within the bins. Sums of these numbers are exact.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Spread {
     means: Moments,
-    /// RN(Σ (q − m_b)²) of each bin.
+    /// Sum over the bins of the squared deviations within each bin.
     within_squares: ExactSum,
-    /// n_b − 1 of each bin.
+    /// Sum over the bins of the number of samples minus 1.
     within_freedom: u64,
-    /// RN(1 / n_b) of each bin.
+    /// Sum over the bins of the rounded reciprocal of the number of samples.
     shares: ExactSum,
-    /// RN(STD) of each bin, ddof 0.
+    /// Sum over the bins of the standard deviation within each bin, with the divisor n.
     deviations: ExactSum,
     /// True if the scatter of a bin exceeds the range of binary64.
     overflow: bool,
@@ -82,12 +80,12 @@ impl Spread {
         self.means.n
     }
 
-    /// μ = RN(Σ m_b / B).
+    /// Mean of the bin means, rounded once.
     pub(crate) fn mean(&self) -> Finished {
         self.means.mean().ok_or(self.no_bin())
     }
 
-    /// σ = RN(√RN((B Σ m_b² − (Σ m_b)²) / (B (B − ddof)))).
+    /// Standard deviation of the bin means, with the divisor number of bins − `ddof`.
     pub(crate) fn deviation(&self, ddof: u32) -> Finished {
         let (have, least) = (self.bins(), u64::from(ddof) + 1);
         self.mean()?;
@@ -95,12 +93,12 @@ impl Spread {
         deviation.ok_or(UndefinedReason::TooFewBins { have, least })
     }
 
-    /// STD of the bin means by chance alone: √(s² mean(1 / n_b)), s² the pooled variance within bins.
+    /// Standard deviation of the bin means by chance alone: √(s² mean(1 / n)), for n samples in a bin and the pooled variance s² within bins.
     pub(crate) fn noise_floor(&self) -> Finished {
         self.noise_variance().map(f64::sqrt)
     }
 
-    /// STD of the bin means beyond chance: √max(0, variance − noise floor²), with ddof 1.
+    /// Standard deviation of the bin means beyond chance: √max(0, sample variance − noise floor²).
     pub(crate) fn excess(&self) -> Finished {
         let noise = self.noise_variance()?;
         let variance = self.means.variance(1).ok_or(UndefinedReason::TooFewBins {
@@ -110,7 +108,7 @@ impl Spread {
         Ok((variance - noise).max(0.0).sqrt())
     }
 
-    /// RN of the mean of the population STD within each bin.
+    /// Mean of the standard deviations within each bin, rounded once.
     pub(crate) fn within(&self) -> Finished {
         if self.overflow {
             return Err(UndefinedReason::Overflow);

@@ -36,7 +36,7 @@ fn climb(freedom: f64, missing: impl Fn(&Split) -> f64) -> f64 {
     t
 }
 
-/// P(T ≥ t): the upper one-sided p value.
+/// P(T ≥ t) of Student's T: the upper one-sided p value.
 pub(super) fn upper(t: f64, freedom: f64) -> f64 {
     let Split { within, beyond } = Split::at(t.abs(), freedom);
     if t < 0.0 {

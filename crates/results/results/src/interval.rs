@@ -86,7 +86,7 @@ impl Interval {
     }
 }
 
-/// Method of an interval in words for readers, for a score of `n` samples. States the number of samples behind groups of independent samples.
+/// Method of an interval in words for readers, for a score of `n` samples. States `n` if the groups contain several independent samples.
 ///
 /// ```
 /// use taceva_results::described_method;

@@ -91,8 +91,9 @@ pub fn sealed(report: &impl Serialize) -> Result<String, ResultsError> {
     Ok(taceva_files::seal::json::seal(&text)?)
 }
 
-/// Remedies for results of another version. Presses on a real rig are not repeated for their scores.
+/// Remedy for an evaluation report of another version.
 const EVALUATE_AGAIN: &str = "run `taceva evaluate …` again with this version";
+/// Remedy for a run report of another version. Presses on a real rig are not repeated for their scores.
 const RUN_AGAIN: &str = "run `taceva run …` again with this version, or without new presses `taceva evaluate` on each of its recordings";
 
 /// Schema of a text, and the version that wrote the text.

@@ -60,7 +60,7 @@ pub struct Variant {
     pub interval: Option<Interval>,
 }
 
-/// Scores of an evaluation, in the same order.
+/// Scores of `evaluation`, in its order.
 pub fn scores(evaluation: &Evaluation) -> Vec<Score> {
     let all = evaluation.scores();
     all.map(|(metric, channel, score)| Score::of(metric, channel, score))
@@ -116,7 +116,7 @@ impl Score {
     }
 
     /// Variant that decides verdicts, for metrics whose value depends on noise or on the number of repeats. `None` if the value itself
-    /// decides, or if the result lacks the variant.
+    /// decides, or if the result has no number of the variant.
     pub fn decided_by(&self) -> Option<&Variant> {
         let name = catalogue::find(&self.metric)?.decided_by?;
         let variant = self.variant(name)?;

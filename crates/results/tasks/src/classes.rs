@@ -119,7 +119,7 @@ pub struct ConfusionCell<'a> {
     pub count: u64,
 }
 
-/// Greatest number of classes whose columns are counted in a full table.
+/// Greatest number of classes whose samples are first counted in a table of classes × classes.
 const MOST_DENSE: usize = 256;
 
 impl Classes {
@@ -141,7 +141,7 @@ impl Classes {
 
     /// The same state for predictions to which the rule `rule` was applied, such as `threshold 0.4 strict, debounce 3`.
     ///
-    /// Each definition contains the rule. States with different rules cannot be merged.
+    /// The definition of each score contains the rule. States with different rules cannot be merged.
     #[must_use]
     pub fn after_rule(self, rule: impl Into<String>) -> Classes {
         Classes {

@@ -34,8 +34,8 @@ pub struct Estimate {
     pub clusters: u64,
     /// Score of the best constant prediction; `None` if no constant has a score.
     pub of_constant: Option<f64>,
-    /// Score without each cluster with samples, in the order of cluster names, for comparisons in pairs. Reports omit these scores; single classes
-    /// have no such scores.
+    /// Scores with one cluster left out, in the order of cluster names, for paired comparisons. Reports omit these scores. Empty for the
+    /// scores of single classes.
     pub left_out: Vec<LeftOut>,
 }
 

@@ -69,7 +69,7 @@ pub struct TaskScores {
     pub kind: String,
     /// Column with the clusters.
     pub cluster: String,
-    /// Names of the clusters in order, for comparisons in pairs. Reports omit them.
+    /// Names of the clusters in order, for paired comparisons. Reports omit these names.
     #[serde(skip)]
     pub clusters: Vec<String>,
     /// Classes in their order; empty for a kind without classes.

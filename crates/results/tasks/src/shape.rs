@@ -1,7 +1,7 @@
 //! Shapes as clouds of points: Chamfer distances and F scores.
 //!
-//! Publications call several distances Chamfer. The score is ½ (mean + mean) of the distances to the nearest point, both ways.
-//! The variant `sum` is mean + mean, and `squared` is the sum of the means of squared distances.
+//! Publications call several distances Chamfer. Each point has a distance to the nearest point of the other cloud. The score is half the
+//! sum of the mean distances of both clouds. The variant `sum` is the whole sum, and `squared` the sum of both means of squared distances.
 //!
 //! ```
 //! use taceva_tasks::shape::{ShapeState, ShapeTask};

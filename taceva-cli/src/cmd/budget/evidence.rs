@@ -115,7 +115,7 @@ impl Measured {
         self.absent.push(Missing::new(figure, reason));
     }
 
-    /// Adds the certificate of the reference for the channel, if the result has one.
+    /// Adds the certificate of the reference for the channel, or the reason why the result has no single certificate.
     fn add_certificate(&mut self, found: &Found, channel: &Channel) {
         let stated = &found.report.provenance.traceability;
         match reference_certificate(stated, &channel.name, self.recorded_on) {

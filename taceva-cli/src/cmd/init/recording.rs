@@ -276,7 +276,7 @@ impl Place {
     }
 }
 
-/// Common units of the quantity that the channel `subject` is, by its name.
+/// Common units of the channel `subject`, by the name of the channel.
 fn units(subject: &str) -> &'static str {
     match subject {
         "Px" | "Py" | "Pz" => "mm, um or m",

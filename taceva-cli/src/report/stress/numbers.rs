@@ -92,7 +92,7 @@ pub(crate) fn numbers(report: &StressReport) -> Table {
     rows.table
 }
 
-/// Fault, strength and untouched picture of a number.
+/// Fault, strength of the fault and kind of untouched input, to which the numbers of a row belong.
 #[derive(Clone, Copy, Default)]
 struct Place<'a> {
     fault: &'a str,

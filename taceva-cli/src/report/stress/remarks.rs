@@ -7,7 +7,7 @@ use taceva_stress::{By, Estimate, StressReport, TARGETS};
 
 use super::{phrase, short};
 
-/// Remark on skill without a fault whose interval includes 0, although more tested samples may show skill.
+/// Remark on positive skill that is not significant even without a fault, because too few samples were tested.
 pub(super) fn unshown_skill<'a>(
     samples: usize,
     skills: impl Iterator<Item = (&'a str, Estimate)>,
@@ -27,7 +27,7 @@ pub(super) fn unshown_skill<'a>(
     })
 }
 
-/// Remark on severities whose pictures change by less than half of the target, or more than twice the target; `None` without such severities.
+/// Remark on severities at which pictures change by less than half or more than twice the [target](TARGETS) of the severity; `None` without any.
 pub(super) fn missed_targets(report: &StressReport) -> Option<String> {
     if report.by == By::Parameter {
         return None;
@@ -51,7 +51,7 @@ pub(super) fn missed_targets(report: &StressReport) -> Option<String> {
     })
 }
 
-/// Remark on the metrics on request, which are too many for a table of readers; `None` without any.
+/// Remark on additionally requested metrics, which are too many for a table for readers; `None` without any.
 pub(super) fn other_metrics(report: &StressReport) -> Option<String> {
     let names = report.clean.values().flat_map(|of| of.metrics.keys());
     let names: BTreeSet<&str> = names.map(String::as_str).collect();

@@ -43,7 +43,7 @@ impl PairSpec {
     }
 }
 
-/// Counts and exact sums of the pairs of one channel. RN(x) is the binary64 nearest to x.
+/// Counts and exact sums of the pairs of one channel.
 ///
 /// The result depends only on the set of pairs, for any number of updates and merges in any order.
 ///
@@ -127,29 +127,29 @@ impl PairSums {
         self.spec
     }
 
-    /// RN(SST), SST = (n Syy − Sy²) / n: the sum of squares of the truth about its mean; 0 without pairs.
+    /// Sum of squares of the truth about its mean, rounded once; 0 without pairs.
     pub fn total_sum_of_squares(&self) -> f64 {
         self.over_n(&self.scaled_spread(), 1)
     }
 
-    /// RN(Sdd / n); 0 without pairs.
+    /// Mean squared residual, rounded once; 0 without pairs.
     pub fn mean_squared_error(&self) -> f64 {
         self.mean(Stream::Squared)
     }
 
-    /// RN((n Sdd − S|d|²) / (n (n − 1))), the variance of |d|; `None` for fewer than two pairs.
+    /// Sample variance of the absolute residuals, rounded once; `None` for fewer than two pairs.
     pub fn absolute_variance(&self) -> Option<f64> {
         let (absolute, squared) = (Stream::Absolute, Stream::Squared);
         let n = self.n();
         (n >= 2).then(|| self.over_n(&self.scaled_variance(absolute, squared), n - 1))
     }
 
-    /// RN(sum / n) of one stream; 0 without pairs.
+    /// Mean of one stream, rounded once; 0 without pairs.
     pub(crate) fn mean(&self, stream: Stream) -> f64 {
         self.over_n(&self.sum(stream).to_dyadic(), 1)
     }
 
-    /// RN(√(sum / n)) of one stream, rounded once; 0 without pairs.
+    /// Root of the mean of one stream, rounded once; 0 without pairs.
     pub(crate) fn root_mean_square(&self, stream: Stream) -> f64 {
         match self.n() {
             0 => 0.0,
@@ -157,7 +157,7 @@ impl PairSums {
         }
     }
 
-    /// n Syy − Sy², exactly. Zero if and only if all truths are equal.
+    /// n Σ y² − (Σ y)² of the n truths y, exactly. Zero if and only if all truths are equal.
     pub(crate) fn scaled_spread(&self) -> Dyadic {
         self.scaled_variance(Stream::Truth, Stream::TruthSquared)
     }

@@ -71,7 +71,7 @@ impl Merge for PlaneSums {
     }
 }
 
-/// e = RN(√RN(RN(x²) + RN(y²))), scaled by a power of two if a square would over- or underflow.
+/// Length √(x² + y²), rounded at every step, and scaled by a power of two if a square would over- or underflow.
 ///
 /// Unlike the `hypot` of a platform, this function returns the same bits on every platform.
 #[inline]

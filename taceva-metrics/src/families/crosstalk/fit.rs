@@ -14,7 +14,7 @@ pub(super) struct Leaks {
 }
 
 impl Leaks {
-    /// Fits y_i = a_i + Σ_j b_ij x_j and returns b_ij range_j / range_i, with range the full scale of a truth.
+    /// Fits the predictions y_i = a_i + Σ_j b_ij x_j to the truths x_j, and returns b_ij range_j / range_i, with range the full scale of a truth.
     ///
     /// Products of deviations are exact and rounded once. The normal equations are scaled to correlations and solved by Cholesky's
     /// method, whose error increases with the collinearity of the truths. If there are no more samples than unknowns, the slopes are Σ y_i x_j / Σ x_j²
@@ -133,7 +133,7 @@ impl Factor {
     }
 }
 
-/// √(n Σ x² − (Σ x)²).
+/// Standard deviation of a truth x, multiplied by n: √(n Σ x² − (Σ x)²).
 fn deviation(sums: &JointSums, truth: usize) -> f64 {
     sums.truth_products(truth, truth).to_f64().sqrt()
 }
@@ -152,7 +152,7 @@ fn single_slopes(sums: &JointSums, varying: &[usize], predicted: usize) -> Vec<f
     varying.iter().map(slope).collect()
 }
 
-/// RN(range of `truth` / range of the truth of `predicted`); `None` if the truth of `predicted` does not vary.
+/// Range of `truth` divided by the range of the truth of `predicted`, rounded once; `None` if the truth of `predicted` does not vary.
 fn full_scales(sums: &JointSums, truth: usize, predicted: usize) -> Option<f64> {
     let range = |channel: usize| {
         let [low, high] = sums.range(channel)?;

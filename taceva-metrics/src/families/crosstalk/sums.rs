@@ -5,7 +5,7 @@ use crate::exact::record::Record;
 use crate::exact::{ColumnSums, Dyadic, ExactSum};
 use crate::pair::is_valid;
 
-/// Counts, exact sums of values and products, and the range of each truth.
+/// Counts, exact sums of truths x, predictions y and their products, and the range of each truth.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct JointSums {
     channels: usize,

@@ -31,15 +31,15 @@ impl Limit {
         })
     }
 
-    /// Limit of the line for another choice of places, which may be fewer.
+    /// Limit of the line for another selection of places, at least three.
     pub(super) fn resampled(sums: &LightSums) -> Result<Limit, UndefinedReason> {
         Limit::of_line(sums, LEAST_LEFT)
     }
 
-    /// Limit of ISO 11843-2 for one prediction per press and g = n² / Σ nᵢ² independent presses.
+    /// Limit of ISO 11843-2 for one prediction per press and g = n² / Σ nᵢ² independent presses, nᵢ of n presses at place i.
     ///
-    /// With S_xx = n Σ x² − (Σ x)², S_yy and S_xy alike and R = S_xx S_yy − S_xy², s / b = √(R S_xx) / (n S_xy) × √(g / (g − 2)).
-    /// R, S_xx and S_xy are exact; each root and quotient is rounded once.
+    /// For true forces x and predicted forces y, S_xx = n Σ x² − (Σ x)², S_yy and S_xy alike, and R = S_xx S_yy − S_xy². The residual deviation s
+    /// over the slope b is √(R S_xx) / (n S_xy) × √(g / (g − 2)). R, S_xx and S_xy are exact; each root and quotient is rounded once.
     fn of_line(sums: &LightSums, least: u64) -> Result<Limit, UndefinedReason> {
         if !sums.places.are_named() {
             return Err(UndefinedReason::NoClusters);

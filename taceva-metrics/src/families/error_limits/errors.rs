@@ -86,7 +86,7 @@ impl<'a> Errors<'a> {
         [line.map(|line| line.slope), chance]
     }
 
-    /// True if no two errors belong to one cluster.
+    /// True if no two errors belong to one cluster, or if the caller declared the samples independent.
     pub(super) fn are_independent(&self) -> bool {
         let totals = self.totals;
         let are_apart = !totals.is_unnamed && totals.groups.groups() == totals.errors.n;

@@ -60,7 +60,7 @@ impl Branches {
             .get_or_init(|| Press::compare(&corners(&self.load), &corners(&self.unload)))
     }
 
-    /// RN of the mean place, mm; `None` if no sample has a place.
+    /// Mean place, mm, rounded once; `None` if no sample has a place.
     pub(super) fn place_mm(&self) -> Option<[f64; 2]> {
         let PlaceSums { n, sums } = &self.place;
         let mean = |axis: usize| sums[axis].to_dyadic().over(&Dyadic::from(*n));
@@ -131,7 +131,7 @@ impl Merge for Branches {
     }
 }
 
-/// Depth and RN of the mean force at that depth, by depth.
+/// Depth and mean force at that depth, rounded once, in ascending order of depths.
 fn corners(branch: &Branch) -> Vec<[f64; 2]> {
     let mean = |count: &u64, forces: &ExactSum| forces.to_dyadic().over(&Dyadic::from(*count));
     let corners = branch.iter();

@@ -172,7 +172,7 @@ impl Family for Loops {
 }
 
 impl LoopSums {
-    /// RN of the mean of `number` over the contact points with comparable branches. Presses without the number are skipped.
+    /// Mean of `number` over the contact points with comparable branches, rounded once. Presses without the number are skipped.
     fn mean(&self, number: &dyn Fn(&Press) -> Option<f64>) -> Finished {
         if self.n == 0 {
             return Err(UndefinedReason::Empty);

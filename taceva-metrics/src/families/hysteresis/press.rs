@@ -87,7 +87,7 @@ fn common_grid(load: Branch<'_>, unload: Branch<'_>) -> Result<Vec<f64>, Undefin
 
 /// A range of depths within which both branches are straight.
 struct Stretch {
-    /// b − a.
+    /// Length of the range.
     width: Dyadic,
     /// F_load at both ends, multiplied by `load_scale`.
     load: [Dyadic; 2],
@@ -112,7 +112,7 @@ impl Stretch {
         }
     }
 
-    /// (|u| + |v|) h / 2, or (u² + v²) h / (2 (|u| + |v|)) if the branches cross, with u and v the differences at the ends.
+    /// (|u| + |v|) h / 2, or (u² + v²) h / (2 (|u| + |v|)) if the branches cross, with the differences u and v at the ends and the width h.
     fn area(&self) -> f64 {
         let [u, v] = &self.difference;
         let sizes = &magnitude(u.clone()) + &magnitude(v.clone());
@@ -125,19 +125,19 @@ impl Stretch {
         }
     }
 
-    /// (u + v) h / 2.
+    /// Mean of the differences at both ends, times the width.
     fn signed_area(&self) -> f64 {
         let [u, v] = &self.difference;
         (&(u + v) * &self.width).over(&twice(&self.scale))
     }
 
-    /// (F_load(a) + F_load(b)) h / 2.
+    /// Mean of F_load at both ends, times the width.
     fn work(&self) -> f64 {
         let [start, end] = &self.load;
         (&(start + end) * &self.width).over(&twice(&self.load_scale))
     }
 
-    /// The greater of |u| and |v|. A difference of straight lines is greatest at an end.
+    /// Greatest |F_load − F_unload|. A difference of straight lines is greatest at an end.
     fn greatest_difference(&self) -> f64 {
         let ends = self
             .difference
@@ -151,7 +151,7 @@ impl Stretch {
 struct Chord {
     /// Forces, multiplied by `scale`.
     forces: [Dyadic; 2],
-    /// Distance of the points.
+    /// Distance of the points in depth.
     scale: Dyadic,
 }
 

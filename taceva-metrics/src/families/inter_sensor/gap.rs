@@ -7,9 +7,9 @@ use crate::score::value::UndefinedReason;
 /// Gap between two surfaces, mm, in both directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Gap {
-    /// RN of the mean distance from points of the first surface to the nearest point of the second.
+    /// Mean distance from points of the first surface to the nearest point of the second, rounded once.
     pub(crate) forward: f64,
-    /// RN of the mean distance from points of the second surface to the nearest point of the first.
+    /// Mean distance from points of the second surface to the nearest point of the first, rounded once.
     pub(crate) backward: f64,
     /// Number of compared points of both surfaces.
     pub(crate) points: u64,
@@ -19,7 +19,7 @@ impl Gap {
     /// Compares two surfaces where they overlap: points whose projection along z is in the hull of the other surface. The
     /// nearest point is the nearest of all points of the other surface.
     ///
-    /// A distance is RN(√RN(RN(RN(x²) + RN(y²)) + RN(z²))), and distances are summed exactly.
+    /// A distance √(x² + y² + z²) is rounded at every step, and distances are summed exactly.
     ///
     /// # Errors
     /// [`UndefinedReason::NoOverlap`] if no point of one surface is in the hull of the other.
@@ -33,13 +33,13 @@ impl Gap {
         })
     }
 
-    /// RN of the mean of both directions. Lengths are far from over- and underflow.
+    /// Mean of both directions, rounded once. Lengths are far from over- and underflow.
     pub(crate) fn both(&self) -> f64 {
         (self.forward + self.backward) * 0.5
     }
 }
 
-/// RN of the mean distance to the nearest point of `to`, over the points of `from` within the hull of `to`. Also returns their number.
+/// Mean distance to the nearest point of `to`, over the points of `from` within the hull of `to`, and the number of these points.
 fn mean_distance(from: &[Point], to: &[Point]) -> Result<(f64, u64), UndefinedReason> {
     let seen_from_above = |&[x, y, _]: &Point| [x, y];
     let hull = Hull::of(to.iter().map(seen_from_above));
@@ -49,7 +49,7 @@ fn mean_distance(from: &[Point], to: &[Point]) -> Result<(f64, u64), UndefinedRe
     mean_of_nearest(common, to).ok_or(UndefinedReason::NoOverlap)
 }
 
-/// RN of the mean distance from each point of `from` to the nearest point of `to`, and the number of points in `from`; `None` for no point.
+/// Mean distance from each point of `from` to the nearest point of `to`, rounded once, and the number of points in `from`; `None` for no point.
 fn mean_of_nearest<'a>(from: impl Iterator<Item = &'a Point>, to: &[Point]) -> Option<(f64, u64)> {
     let search = NearestPoints::new(to.iter().copied());
     let (mut count, mut distances) = (0, ExactSum::default());

@@ -43,7 +43,7 @@ impl UnitGaps {
         Ok(UnitGaps { units, pairs })
     }
 
-    /// RN of the mean of `number` over the pairs with a gap.
+    /// Mean of `number` over the pairs with a gap, rounded once.
     ///
     /// # Errors
     /// The reason of the first pair, if no pair has a gap.

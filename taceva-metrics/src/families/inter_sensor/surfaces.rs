@@ -79,7 +79,7 @@ impl SurfaceClouds {
         self.n_invalid
     }
 
-    /// Cloud of each unit. If samples have contact points, the point of a contact point is RN of the mean of its places along each axis.
+    /// Cloud of each unit. If samples have contact points, each contact point has one point: the mean of its places along each axis.
     /// Otherwise every place is a point.
     pub(super) fn by_unit(&self) -> Vec<(&str, Cloud)> {
         let mut clouds: SortedMap<&str, Cloud> = SortedMap::default();
@@ -178,7 +178,7 @@ impl Merge for Places {
     }
 }
 
-/// RN of the mean along each axis.
+/// Mean of the places along each axis, rounded once.
 fn mean_place(places: &PlaceSet) -> Point {
     let count = places.iter().fold(0, |count, _| count + 1);
     std::array::from_fn(|axis| {

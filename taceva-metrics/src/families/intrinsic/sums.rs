@@ -76,7 +76,7 @@ impl IntrinsicSums {
         self.n_invalid
     }
 
-    /// RN of the share of duplicates among the frames with a digest whose predecessor has a digest.
+    /// Share of duplicates among the frames with a digest whose predecessor has a digest.
     pub(super) fn duplicated(&self) -> Finished {
         if self.frames.is_empty() {
             return Err(UndefinedReason::NoTimes);
@@ -96,7 +96,7 @@ impl IntrinsicSums {
         Ok(Dyadic::from(duplicates).over(&Dyadic::from(followers)))
     }
 
-    /// RN of the area of the hull, mm².
+    /// Area of the hull, mm², rounded once.
     pub(super) fn field_of_view(&self) -> Finished {
         if self.hull.hull().is_empty() {
             return Err(UndefinedReason::NoContact);

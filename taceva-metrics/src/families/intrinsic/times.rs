@@ -16,10 +16,10 @@ pub const STREAM_S: f64 = 1.0;
 const GAP: f64 = 1.5;
 
 impl Intervals {
-    /// RN of each difference of successive times.
+    /// Each difference of successive times, rounded once.
     ///
     /// # Errors
-    /// [`UndefinedReason`] if no sample has a time, all times are equal, or the frames are single pictures.
+    /// [`UndefinedReason`] for fewer than two different times, or if the frames are single pictures.
     pub(super) fn of(sums: &IntrinsicSums) -> Result<Intervals, UndefinedReason> {
         match sums.times_s()[..] {
             [] => Err(UndefinedReason::NoTimes),
@@ -37,7 +37,7 @@ impl Intervals {
         }
     }
 
-    /// Median interval, s: the middle interval, or RN of the mean of the two middle intervals.
+    /// Median interval, s: the middle interval, or the mean of the two middle intervals.
     fn median(&self) -> f64 {
         let middle = self.sorted.len() / 2;
         if self.sorted.len() % 2 == 1 {
@@ -47,12 +47,12 @@ impl Intervals {
         }
     }
 
-    /// RN(1 / median), Hz.
+    /// Reciprocal of the median interval, Hz.
     pub(super) fn frame_rate(&self) -> Finished {
         Ok(1.0 / self.median())
     }
 
-    /// RN of the sample standard deviation of the intervals without gaps, s.
+    /// Sample standard deviation of the intervals without gaps, s.
     pub(super) fn jitter(&self) -> Finished {
         let regular: Moments = self.regular().iter().copied().collect();
         regular
@@ -60,7 +60,7 @@ impl Intervals {
             .ok_or(UndefinedReason::TooFew { least: 3 })
     }
 
-    /// RN of the share of intervals that are gaps.
+    /// Share of intervals that are gaps.
     pub(super) fn dropped(&self) -> f64 {
         let count = |intervals: &[f64]| intervals.iter().fold(0_u64, |count, _| count + 1);
         let all = count(&self.sorted);

@@ -4,7 +4,7 @@ use super::sums::SceneSums;
 use crate::exact::Dyadic;
 use crate::score::value::{Finished, UndefinedReason};
 
-/// Brightness and error of a scene (c) and of the reference scene (o), each a binary64 number of at least 0.
+/// Brightness I and mean absolute error MAE of a scene (c) and of the reference scene (o), each at least 0.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Change {
     pub(super) intensity: [f64; 2],
@@ -22,7 +22,7 @@ impl Change {
         }
     }
 
-    /// R = RN(a / (a + b)), a = |Ic/Io − 1|, b = |MAEc/MAEo − 1|, rounded once from four binary64 numbers.
+    /// Robustness R = a / (a + b), a = |Ic/Io − 1|, b = |MAEc/MAEo − 1|, rounded once.
     pub(super) fn robustness(self) -> Finished {
         self.share(|difference| {
             if difference.is_negative() {
@@ -33,7 +33,7 @@ impl Change {
         })
     }
 
-    /// R with b = max(0, MAEc/MAEo − 1): a smaller error does not reduce the robustness.
+    /// Robustness R = a / (a + b), a = |Ic/Io − 1|, with b = max(0, MAEc/MAEo − 1): a smaller error does not reduce the robustness.
     pub(super) fn robustness_plus(self) -> Finished {
         self.share(|difference| {
             if difference.is_negative() {
@@ -44,7 +44,7 @@ impl Change {
         })
     }
 
-    /// a / (a + b) multiplied out by Io MAEo to stay exact: |Ic − Io| MAEo / (|Ic − Io| MAEo + b MAEo Io).
+    /// |Ic − Io| MAEo / (|Ic − Io| MAEo + b Io), rounded once, with b the result of `counted` for MAEc − MAEo.
     fn share(self, counted: impl Fn(Dyadic) -> Dyadic) -> Finished {
         let [scene_intensity, intensity] = self.intensity.map(Dyadic::from_f64);
         let [scene_error, error] = self.error.map(Dyadic::from_f64);
@@ -87,10 +87,12 @@ impl Change {
         self.error[0] < self.error[1]
     }
 
-    /// |∂R / ∂ ln MAEc| = a ρ / (a + b)², ρ = MAEc / MAEo. The derivative with respect to ln MAEo has the opposite sign.
+    /// Slope ∂R / ∂ ln MAEc of the robustness R = a / (a + b): magnitude a ρ / (a + b)² with ρ = MAEc / MAEo.
     ///
-    /// For `plus`, an error below the reference keeps the magnitude of the slope without `plus`. R is then 1, but the true error may be on either
-    /// side of the bend. A slope of 0 would suggest a certain R. `None` if R is undefined.
+    /// Positive only if the error is below the reference. The derivative with respect to ln MAEo has the opposite sign.
+    ///
+    /// For `plus`, R is 1 if the error is below the reference, but the true error may be above. A slope of 0 would suggest a certain R, so the slope
+    /// keeps this magnitude with a negative sign. `None` if R is undefined.
     pub(super) fn slope(self, plus: bool) -> Option<f64> {
         let [Some(light), Some(harm)] = self.ratios() else {
             return None;

@@ -12,9 +12,10 @@ use crate::stats::jackknife::{self, LeftOut};
 
 /// Intervals of one channel's scores, by the jackknife of the joint changes of errors.
 ///
-/// To first order a robustness changes by s_c (δ_c − δ_o), with s_c = ∂R_c / ∂ ln MAEc and δ the relative change of a scene's mean absolute
-/// error. A mean over C scenes changes by Σ s_c (δ_c − δ_o) / C. A contact point is left out of all scenes at once, because presses at one
-/// place have similar errors in every light. The brightness counts as exact, because it is a mean over whole pictures.
+/// To first order the robustness R_c to scene c changes by s_c (δ_c − δ_o), with s_c = ∂R_c / ∂ ln MAEc, the relative change δ of a mean
+/// absolute error, and the reference scene o. A mean over C scenes changes by Σ s_c (δ_c − δ_o) / C. A contact point is left out of all scenes
+/// at once, because presses at one place have similar errors in every light. The brightness counts as exact, because
+/// it is a mean over whole pictures.
 pub(super) fn intervals(
     total: &LightingSums,
     clusters: &[&LightingSums],

@@ -68,7 +68,7 @@ pub(super) fn variant_of(scene: &str) -> String {
     format!("scene:{scene}")
 }
 
-/// R = RN(Σ R_c / C) over the scenes with a defined R_c.
+/// Mean of the robustnesses to each scene, over the scenes with a defined robustness, rounded once.
 pub(super) fn robustness(sums: &LightingSums, reference: &str) -> Numbers {
     let changes = match changes(sums, reference) {
         Ok(changes) => changes,
@@ -92,7 +92,7 @@ pub(super) fn robustness(sums: &LightingSums, reference: &str) -> Numbers {
     })
 }
 
-/// RN of the exact mean of the defined values; the first reason if all are undefined.
+/// Mean of the defined values, rounded once; the first reason if all are undefined.
 pub(super) fn mean_of_defined(values: impl Iterator<Item = Finished>) -> Finished {
     let mut reason = None;
     let (mut sum, mut defined) = (ExactSum::default(), 0_u64);

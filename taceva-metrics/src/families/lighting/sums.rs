@@ -18,19 +18,19 @@ pub(crate) struct LightingSums {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct SceneSums {
     pub(super) n: u64,
-    /// Σ |d|, in the unit of the channel.
+    /// Sum of the absolute residuals, in the unit of the channel.
     pub(super) error: ExactSum,
-    /// Σ brightness, on the 8-bit scale.
+    /// Sum of the brightness, on the 8-bit scale.
     pub(super) intensity: ExactSum,
 }
 
 impl SceneSums {
-    /// RN of the exact mean absolute error.
+    /// Mean absolute error, rounded once.
     pub(super) fn mean_error(&self) -> f64 {
         self.error.to_dyadic().over(&Dyadic::from(self.n))
     }
 
-    /// RN of the exact mean brightness.
+    /// Mean brightness, rounded once.
     pub(super) fn mean_intensity(&self) -> f64 {
         self.intensity.to_dyadic().over(&Dyadic::from(self.n))
     }

@@ -90,16 +90,16 @@ impl Merge for LineSums {
     }
 }
 
-/// Least-squares line y = offset + slope x. Each number is an exact rational, rounded once.
+/// Least-squares line y = a + b x of predictions y over truths x. Each number is an exact rational, rounded once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Line {
-    /// b = (n Sxy − Sx Sy) / (n Sxx − Sx²).
+    /// Slope b = (n Σ x y − Σ x Σ y) / (n Σ x² − (Σ x)²).
     pub(super) slope: f64,
-    /// a = (Sy Sxx − Sx Sxy) / (n Sxx − Sx²).
+    /// Offset a = (Σ y Σ x² − Σ x Σ x y) / (n Σ x² − (Σ x)²).
     pub(super) offset: f64,
 }
 
-/// Greatest deviation of predictions from the least-squares line.
+/// Greatest deviation of predictions y from the least-squares line a + b x.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Deviation {
     /// max |y − a − b x|.
@@ -108,16 +108,16 @@ pub(super) struct Deviation {
     pub(super) relative: f64,
 }
 
-/// Terms of the line's formulas.
+/// Terms of the formulas of a [`Line`].
 struct Fit {
     n: Dyadic,
-    /// Sx and Sy.
+    /// Σ x and Σ y.
     sums: [Dyadic; 2],
-    /// n Sxy − Sx Sy.
+    /// n Σ x y − Σ x Σ y.
     shared: Dyadic,
-    /// n Sxx − Sx².
+    /// n Σ x² − (Σ x)².
     spread: Dyadic,
-    /// Sy Sxx − Sx Sxy.
+    /// Σ y Σ x² − Σ x Σ x y.
     rest: Dyadic,
     /// max x − min x.
     range: Dyadic,

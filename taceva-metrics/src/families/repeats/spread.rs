@@ -57,15 +57,15 @@ impl Merge for Cell {
 /// Spread of the repeats of one cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Spread {
-    /// n − 1.
+    /// Number of repeats minus 1.
     pub(crate) freedom: u64,
-    /// RN of the mean.
+    /// Mean, rounded once.
     pub(crate) mean: f64,
-    /// RN((n Sqq − Sq²) / (n (n − 1))).
+    /// Sample variance, rounded once.
     pub(crate) variance: f64,
-    /// RN of the root of `variance`.
+    /// Root of `variance`.
     pub(crate) deviation: f64,
-    /// √RN((n Sqq − Sq²) / n²).
+    /// Standard deviation with the divisor n: root of the rounded variance.
     pub(crate) population_deviation: f64,
 }
 
@@ -116,14 +116,14 @@ impl SpreadSums {
         self.spreads.iter().fold(0, |count, _| count + 1)
     }
 
-    /// RN of the mean of `number` over the cells.
+    /// Mean of `number` over the cells, rounded once.
     pub(crate) fn mean(&self, number: fn(&Spread) -> f64) -> Finished {
         self.defined()?;
         let sum: ExactSum = self.spreads.iter().map(number).collect();
         mean(&sum, self.count())
     }
 
-    /// s_r = √RN(Σ (n_c − 1) s²_c / Σ (n_c − 1)), rounded once from the cells' rounded variances s²_c.
+    /// Pooled standard deviation of the repeats: root of the mean of the cells' rounded variances, weighted by their degrees of freedom.
     pub(crate) fn pooled(&self) -> Finished {
         self.defined()?;
         let (mut variances, mut freedom) = (ExactSum::default(), 0_u64);
@@ -134,7 +134,9 @@ impl SpreadSums {
         mean(&variances, freedom).map(f64::sqrt)
     }
 
-    /// √max(0, s_m² − s_r² mean(1 / n_c)): the spread of cell means beyond the scatter of their repeats.
+    /// Spread of the cell means beyond the scatter of their repeats: √max(0, s_m² − s_r² mean(1 / n_c)).
+    ///
+    /// s_m is the standard deviation of the cell means, s_r the pooled one of the repeats, and n_c the number of repeats of a cell.
     pub(crate) fn signal(&self) -> Finished {
         let (means, repeats) = (self.deviation_of_means()?, self.pooled()?);
         let shares: ExactSum = self
@@ -146,7 +148,7 @@ impl SpreadSums {
         Ok((means * means - by_chance).max(0.0).sqrt())
     }
 
-    /// RN of the sample standard deviation of the cells' rounded means.
+    /// Sample standard deviation of the cells' rounded means.
     fn deviation_of_means(&self) -> Finished {
         self.defined()?;
         let means: Moments = self.spreads.iter().map(|spread| spread.mean).collect();
@@ -166,7 +168,7 @@ fn whole(count: u64) -> f64 {
     count as f64
 }
 
-/// RN of the mean of exact values.
+/// Mean from an exact sum, rounded once.
 pub(crate) fn mean(sum: &ExactSum, count: u64) -> Result<f64, UndefinedReason> {
     if count == 0 {
         return Err(UndefinedReason::NoRepeatedPress);

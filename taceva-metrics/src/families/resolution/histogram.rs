@@ -6,12 +6,12 @@ use crate::exact::Dyadic;
 use crate::exact::merge::{Merge, keyed};
 use crate::exact::record::Record;
 
-/// Counts of samples by |r̂ − r| in whole nanometres, so that any tolerance can be applied later. Counts by r give the success rate of
-/// the best constant prediction.
+/// Counts of samples by the magnitude of the spacing error in whole nanometres, so that any tolerance can be applied later. Counts by true
+/// spacing give the success rate of the best constant prediction.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Histogram {
     pub(super) n_invalid: u64,
-    /// Number of samples by difference, for occurring differences only.
+    /// Number of samples by error, for occurring errors only.
     counts: BTreeMap<u64, u64>,
     /// Number of samples by true spacing; empty in states of versions without these counts.
     truths: BTreeMap<u64, u64>,
@@ -32,8 +32,8 @@ impl Histogram {
         }
     }
 
-    /// RN(most / n), the success rate of the best constant prediction: `most` is the greatest number of samples within `tolerance_nm` of one
-    /// spacing. `None` without samples, or if a true spacing is unknown.
+    /// Success rate of the best constant prediction: the greatest share of samples within `tolerance_nm` of one spacing. `None`
+    /// without samples, or if a true spacing is unknown.
     pub(super) fn of_constant(&self, tolerance_nm: u64) -> Option<f64> {
         let known = self
             .truths
@@ -64,7 +64,7 @@ impl Histogram {
         within.fold(0, |hits, (_, &count)| hits.saturating_add(count))
     }
 
-    /// RN(hits / n); `None` without samples.
+    /// Share of samples with an error of at most `tolerance_nm`; `None` without samples.
     pub(super) fn rate(&self, tolerance_nm: u64) -> Option<f64> {
         let n = self.n();
         (n > 0).then(|| Dyadic::from(self.hits(tolerance_nm)).over(&Dyadic::from(n)))

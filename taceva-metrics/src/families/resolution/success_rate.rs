@@ -48,7 +48,7 @@ const STEP_NM: u64 = 50_000;
 /// Number of tolerances of the curve: 0, 0.05, …, 1 mm.
 const LEVELS: u64 = 21;
 
-/// SR(ε) = RN(#{|r̂ − r| ≤ ε} / n) at the tolerance, and SR(0).
+/// Share of spacings recognised within the tolerance, and share of spacings recognised exactly.
 pub(super) fn success_rate(histogram: &Histogram, tolerance_nm: u64) -> Numbers {
     let rate = |tolerance: u64| histogram.rate(tolerance).ok_or(UndefinedReason::Empty);
     Numbers::of(rate(tolerance_nm)).with("exact", Unit::One, Range::Share, rate(0))

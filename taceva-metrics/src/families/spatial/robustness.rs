@@ -50,7 +50,8 @@ pub(crate) static R_SPATIAL: Metric = Metric {
 /// Variant that decides verdicts.
 pub(super) const EXCESS: &str = "excess";
 
-/// R = RN((σ_distance + σ_depth) / 2), with σ the population STD of the bin means. Variants are also means over both directions.
+/// Mean of the standard deviations of bin means over distance and over depth, with the divisor of `settings`. All variants except
+/// `std_distance` and `std_depth` are also means over both directions.
 pub(super) fn robustness(sums: &SpatialSums, settings: &Settings, unit: Unit) -> Numbers {
     if sums.n == 0 {
         let outside = sums.outside > 0;
@@ -136,7 +137,7 @@ pub(super) fn of_clusters(channels: &[Vec<&SpatialSums>], settings: &Settings) -
     })
 }
 
-/// Centred rolling means of the bins with samples, each RN of an exact mean. The window is shorter at the ends.
+/// Centred rolling means of the bins with enough samples, each rounded once. The window is shorter at the ends.
 fn smoothed(bins: &[Bin], settings: &Settings) -> Moments {
     let bins = bins.iter().filter(|bin| bin.has(settings.n_min));
     let means: Vec<f64> = bins.map(|bin| bin.mean).collect();

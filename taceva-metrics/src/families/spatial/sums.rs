@@ -11,7 +11,7 @@ use crate::pair::{Paired, is_valid};
 /// Number of bins in each direction.
 pub(super) const BINS: u8 = 100;
 
-/// |d| of one channel by bin of distance and by bin of depth, for bins with samples.
+/// Absolute errors of one channel by bin of distance and by bin of depth, for bins with samples.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SpatialSums {
     pub(super) n: u64,
@@ -122,7 +122,7 @@ impl Reach {
 
     /// Bins of distance and depth for a place in mm, computed in whole nanometres; `None` beyond the reach.
     ///
-    /// Distance: the greatest k with (k Rmax)² ≤ 10⁴ r²; depth: ⌊100 z / Dmax⌋; both at most 99.
+    /// For the distance r: the greatest k with (k `radius`)² ≤ 10⁴ r². For the depth z: ⌊100 z / `depth`⌋. Both are at most 99.
     fn bins(self, place_mm: [f64; 3]) -> Option<(u8, u8)> {
         let [x, y, z] = place_mm.map(Nanometre::from_millimetres);
         let (x, y, z) = (x?, y?, z?);

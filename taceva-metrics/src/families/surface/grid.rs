@@ -19,7 +19,7 @@ impl Grid {
 
     /// Cell of a place in mm, computed in whole nanometres; `None` outside the footprint.
     ///
-    /// bin = min(⌊(x + R) G / 2R⌋, G − 1): the last edge belongs to the last bin.
+    /// bin = min(⌊(x + R) G / 2R⌋, G − 1) for G bins from −R to R: the last edge belongs to the last bin.
     pub(crate) fn cell(&self, x_mm: f64, y_mm: f64) -> Option<Cell> {
         let x = Nanometre::from_millimetres(x_mm)?;
         let y = Nanometre::from_millimetres(y_mm)?;

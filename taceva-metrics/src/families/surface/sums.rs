@@ -19,7 +19,7 @@ pub(crate) struct Press {
     pub(crate) force_n: f64,
 }
 
-/// Counts and exact sums of s = RN(Δz / F) of samples in contact.
+/// Counts and exact sums of the compliance Δz / F, depth over normal force, of samples in contact.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SurfaceSums {
     pub(crate) n_invalid: u64,
@@ -34,7 +34,7 @@ pub(crate) struct SurfaceSums {
     pub(crate) work: ExactSum,
     /// Σ F².
     pub(crate) force_squares: ExactSum,
-    /// Moments of s = RN(Δz / F) within the footprint, by cell: for all samples, and for samples without shear.
+    /// Moments of the compliance Δz / F within the footprint, by cell: for all samples, and for samples without shear.
     pub(crate) cells: SortedMap<Cell, [Moments; 2]>,
 }
 

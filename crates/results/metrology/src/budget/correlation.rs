@@ -176,7 +176,7 @@ impl Correlations {
         (0..n).map(|at| a[at * n + at]).fold(1.0, f64::min)
     }
 
-    /// Lower triangle L with L Lᵀ = R, row by row. A column whose pivot is nearly 0 is 0.
+    /// Lower triangle L with L Lᵀ equal to this matrix, row by row. A column whose pivot is nearly 0 is 0.
     pub(super) fn factor(&self) -> Vec<f64> {
         let n = self.count;
         let mut lower = vec![0.0; n * n];

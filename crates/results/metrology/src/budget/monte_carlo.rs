@@ -292,7 +292,7 @@ impl Stability {
         self.results.push([block.mean, block.u, low, high]);
     }
 
-    /// True if twice the standard error of each result is below half the last place of u.
+    /// True from [`LEAST_BLOCKS`] blocks on, if twice the standard error of each result is at most half the last place of u.
     fn is_reached(&self) -> bool {
         let limit = tolerance(self.mean(1));
         self.results.len() >= LEAST_BLOCKS
@@ -304,7 +304,7 @@ impl Stability {
         sum / self.results.len() as f64
     }
 
-    /// Standard error of the mean over blocks, for at least two blocks.
+    /// Standard error of the mean over blocks of the result at index `which`, for at least two blocks.
     fn standard_error(&self, which: usize) -> f64 {
         let (h, mean) = (self.results.len() as f64, self.mean(which));
         let offs = self.results.iter().map(|result| result[which] - mean);

@@ -5,8 +5,7 @@ use super::evidence::Evidence;
 use super::input::Input;
 use super::report::Missing;
 
-/// Uncertainty of the height from which depths are measured. The depth label of each press has the error of its own zero, which residuals and repeats
-/// therefore contain.
+/// Figure of the height from which depths are measured. The error of this height differs between presses, so residuals and repeats contain it.
 const ZERO: &str = "zero_u_mm";
 
 /// Figures of residuals, each with the figures included in it.
@@ -31,7 +30,7 @@ const INSIDE: [(&str, &[&str]); 4] = [
     ("repeatability", &[ZERO]),
 ];
 
-/// Effects that presses of one unit in one session do not vary, each with its figure.
+/// Figures of effects that are constant over the presses of one unit in one session, each with the effect in words.
 const UNEXERCISED: [(&str, &str); 4] = [
     ("hysteresis", "unloading"),
     ("r_light", "other light"),

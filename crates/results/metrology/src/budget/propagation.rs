@@ -17,7 +17,9 @@ pub(super) struct Combined {
 
 /// Combines the inputs at the expansion of the model. Derivatives after the derivatives of the inputs belong to constants.
 ///
-/// u² = Σ cᵢ²uᵢ² + 2 ΣΣ cᵢcⱼuᵢuⱼrᵢⱼ. Degrees of freedom by Welch and Satterthwaite, with the inputs of a set as one component (GUM H.2).
+/// u² = Σ cᵢ²uᵢ² + 2 ΣΣ cᵢcⱼuᵢuⱼrᵢⱼ, with the sensitivity cᵢ and standard uncertainty uᵢ of input i, and the correlation rᵢⱼ.
+///
+/// Degrees of freedom by Welch and Satterthwaite, with the inputs of a set as one component (GUM H.2).
 ///
 /// # Reference
 /// GUM 5.1.2, 5.2.2 and G.4.1. The second-order terms are ½ tr((HΣ)²), H the Hessian and Σ the covariance; third derivatives are omitted.
@@ -61,7 +63,7 @@ pub(super) fn combine(inputs: &[Input], expansion: &Expansion, r: &Correlations)
     }
 }
 
-/// Contribution cᵢuᵢ of each input.
+/// Contribution of each input: sensitivity times standard uncertainty.
 pub(super) fn contributions(inputs: &[Input], expansion: &Expansion) -> Vec<f64> {
     let slopes = inputs.iter().zip(&expansion.gradient);
     slopes.map(|(input, slope)| slope * input.u).collect()

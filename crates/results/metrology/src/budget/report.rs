@@ -48,7 +48,7 @@ pub struct Budget {
     pub k: Option<f64>,
     /// Coverage probability.
     pub p: f64,
-    /// First-order expanded uncertainty k u, unrounded, for either method of the interval; `None` if `nu_eff` is undefined, unless `u` is 0.
+    /// First-order expanded uncertainty k u, unrounded, also if draws give the interval; `None` if `nu_eff` is undefined, unless `u` is 0.
     #[serde(rename = "U")]
     pub expanded: Option<f64>,
     /// Coverage interval, computed by `method`; `None` if undefined.
@@ -219,7 +219,7 @@ impl Budget {
         self.half_width().map(two_digits)
     }
 
-    /// Half-width of the interval; the greater half-width for an asymmetric interval. Equals U unless the interval is from draws.
+    /// Half-width of the interval; the greater half-width for an asymmetric interval. Equals `expanded` unless the interval is from draws.
     pub fn half_width(&self) -> Option<f64> {
         match self.method {
             Method::FirstOrder => self.expanded,
@@ -230,7 +230,7 @@ impl Budget {
         }
     }
 
-    /// Value, U in two digits and coverage, in one line. An interval from draws has no k and no degrees of freedom.
+    /// Value, expanded uncertainty U in two digits and coverage, in one line. An interval from draws has no k and no degrees of freedom.
     pub fn statement(&self) -> String {
         let (unit, name) = (shown(&self.unit), shown(&self.measurand));
         let value = beside(self.value, self.scale());
@@ -317,7 +317,7 @@ impl Budget {
     /// Correlation of the values of two budgets with the same sources; `None` if either value has no uncertainty.
     ///
     /// # Reference
-    /// GUM H.2.3: r = ΣΣ cᵢuᵢ cⱼ′uⱼ′ rᵢⱼ / (u u′).
+    /// GUM H.2.3: r = ΣΣ cᵢuᵢ cⱼ′uⱼ′ rᵢⱼ / (u u′), with contributions cᵢuᵢ to u here and cⱼ′uⱼ′ to u′ in `other`, and correlations rᵢⱼ.
     pub fn correlation_with(&self, other: &Budget) -> Option<f64> {
         let r = |one: &str, two: &str| {
             let pair = |of: &&Correlation| of.between == [one, two] || of.between == [two, one];

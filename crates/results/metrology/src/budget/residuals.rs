@@ -47,17 +47,17 @@ pub struct Residuals {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Components {
-    /// Mean square between points, with `points − 1` degrees of freedom.
+    /// Mean square MS_b between points, with `points − 1` degrees of freedom.
     pub mean_square_between: f64,
-    /// Mean square within points, with `n − points` degrees of freedom.
+    /// Mean square MS_w within points, with `n − points` degrees of freedom.
     pub mean_square_within: f64,
-    /// Effective number of rows of a point, (n − Σnₚ²/n)/(G − 1).
+    /// Effective number of rows of a point, (n − Σnₚ²/n)/(G − 1), for G points with nₚ rows each.
     pub n0: f64,
-    /// Standard deviation between points, √max(0, (MS_b − MS_w)/n0), with degrees of freedom by Satterthwaite.
+    /// Standard deviation s_b between points, √max(0, (MS_b − MS_w)/n0), with degrees of freedom by Satterthwaite.
     pub between: Figure,
     /// Standard deviation within points, √MS_w.
     pub within: Figure,
-    /// Mean residual, a correction of the prediction. u² = s_b² Σ nₚ²/n² + MS_w/n, which is MS_b/n for points with equal numbers of rows.
+    /// Mean residual, a correction of the prediction. u² = s_b² Σ nₚ²/n² + MS_w/n for nₚ rows of point p.
     pub bias: Figure,
     /// Root mean square residual, with degrees of freedom by Satterthwaite because rows of a point are correlated.
     pub rmse: Figure,

@@ -184,7 +184,7 @@ fn owned<T: Clone>(of: Option<&Spanned<T>>) -> Option<T> {
     of.map(|of| of.get_ref().clone())
 }
 
-/// Deviation q − q̄ of each row, rounded twice.
+/// Deviation of each row from the mean of all rows, rounded twice.
 pub(super) fn deviations(rows: &[f64]) -> Vec<f64> {
     let n = rows.len() as f64;
     let sum: ExactSum = rows.iter().copied().collect();

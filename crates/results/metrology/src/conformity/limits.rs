@@ -55,7 +55,7 @@ impl Limits {
     /// Values from `least` to `most`.
     ///
     /// # Errors
-    /// [`ConformityError::Limits`] unless the lower limit is below the upper limit.
+    /// [`ConformityError::Number`] for a limit that is not finite, [`ConformityError::Limits`] unless the lower limit is below the upper limit.
     pub fn between(least: f64, most: f64) -> Result<Limits, ConformityError> {
         Limits::of(Some(least), Some(most))
     }

@@ -172,7 +172,7 @@ impl Measurement {
         ))
     }
 
-    /// Expanded uncertainty for a two-sided coverage in 0..1. On a logarithmic scale relative to the value. `None` without an uncertainty.
+    /// Expanded uncertainty for a two-sided coverage in 0..1, on the scale of the distribution. `None` without an uncertainty.
     #[must_use]
     pub fn expanded(&self, coverage: f64) -> Option<f64> {
         Some(self.coverage_factor(coverage)? * self.uncertainty?.scaled)
@@ -210,7 +210,7 @@ impl Measurement {
         }
     }
 
-    /// Quantity that a guard divides or multiplies, in words. `None` if the guard is subtracted or added in the unit of the value.
+    /// Quantity that a guard band divides or multiplies, in words. `None` if the guard band is subtracted or added in the unit of the value.
     ///
     /// ```
     /// use taceva_metrics::Scale;

@@ -17,7 +17,7 @@ use super::error::check;
 pub enum DecisionRule {
     /// Accepts a value that meets the limit, without regard to uncertainty.
     Simple,
-    /// Accepts a value inside the limit by at least a guard band w = r U.
+    /// Accepts a value inside the limit by at least a guard band of r times the expanded uncertainty.
     Guarded {
         /// Guard band as a multiple r of the expanded uncertainty, at least 0.
         r: f64,

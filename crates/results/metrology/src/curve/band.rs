@@ -80,7 +80,7 @@ pub struct CoefficientUncertainty {
     pub covariance: CovarianceOf,
 }
 
-/// Covariance of the coefficients of z, with degrees of freedom.
+/// Covariance of the coefficients of z, the centred and scaled x, with degrees of freedom.
 pub(super) struct Spread {
     pub(super) covariance: Square,
     pub(super) freedom: f64,
@@ -126,7 +126,7 @@ impl CurveFit {
         Some(points.filter(|points| points.u > rows.u).unwrap_or(rows))
     }
 
-    /// Widest of the bands with half-widths factor(ν) √(extra + z₀ᵀ cov z₀).
+    /// Widest of the bands with half-widths factor(ν) √(extra + zᵀ C z). C is a covariance with ν degrees of freedom, z the scaled powers of `x`.
     fn widest(&self, x: f64, extra: f64, factor: impl Fn(f64) -> f64) -> Band {
         let (value, powers) = (self.value(x), self.axis.powers(x));
         let band = |spread: Spread| {
@@ -160,7 +160,7 @@ impl CurveFit {
         }))
     }
 
-    /// Prediction band for the mean of m = `readings` new readings at one x: y ± t √(s²/m + u²(y)).
+    /// Prediction band for the mean of m = `readings` new readings at one x: y ± t √(s²/m + u²(y)), with the residual standard deviation s.
     ///
     /// # Errors
     /// [`CurveUndefined::Probability`] for `p` outside 0..1; [`CurveUndefined::NotPositive`] for no readings.
@@ -186,7 +186,7 @@ impl CurveFit {
         }))
     }
 
-    /// Variance s²/m of the mean of m readings.
+    /// Variance s²/m of the mean of m readings, with the residual standard deviation s.
     pub(super) fn reading_variance(&self, readings: u32) -> Result<f64, CurveUndefined> {
         let readings = super::undefined::positive("the number of readings", f64::from(readings))?;
         Ok(self.residual_deviation().powi(2) / readings)

@@ -49,14 +49,16 @@ pub struct Detection {
     pub critical: f64,
     /// Detectable value x_D: the least x with a risk of at most `beta` of a missed detection.
     pub detectable: f64,
-    /// Noncentrality parameter δ(ν; α, β).
+    /// Noncentrality parameter δ(ν; α, β), for ν degrees of freedom of the residuals.
     pub factor: f64,
     /// Twice the critical value: the detection limit of DIN 32645.
     pub twice_critical: f64,
 }
 
 impl CurveFit {
-    /// Computes x_C = t s/b √(1/K + 1/(IJ) + x̄²/S_xx) and x_D = δ s/b √(…), for IJ rows.
+    /// Computes x_C = t s/b √(1/K + 1/n + x̄²/S_xx), and x_D with δ in place of t.
+    ///
+    /// s is the residual standard deviation, b the slope, n the number of rows, and S_xx = Σ (x − x̄)².
     ///
     /// # Errors
     /// [`CurveUndefined::NotALine`], [`CurveUndefined::Probability`], [`CurveUndefined::NotPositive`] for no readings,

@@ -164,7 +164,7 @@ impl CurveFit {
         (0..self.count).map(row).collect()
     }
 
-    /// Row i: weights of the coefficients of z in the coefficient of xⁱ, by the binomial theorem.
+    /// Row i: weights of the coefficients of z, the centred and scaled x, in the coefficient of xⁱ, by the binomial theorem.
     pub(super) fn powers_of_x(&self) -> Square {
         const CHOOSE: Square = [
             [1.0, 1.0, 1.0, 1.0],
@@ -192,7 +192,9 @@ pub(super) fn levels(rows: &[CurveRow]) -> Vec<Vec<CurveRow>> {
     levels.map(<[CurveRow]>::to_vec).collect()
 }
 
-/// Jackknife covariance (G − 1)/G Σ (β₋ₚ − β̄)(β₋ₚ − β̄)ᵀ over fits without one point. `None` if no point has two rows, or a fit is underdetermined.
+/// Jackknife covariance (G − 1)/G Σ (β₋ₚ − β̄)(β₋ₚ − β̄)ᵀ of the coefficients β₋ₚ without point p of G points.
+///
+/// `None` if a row has no point, no point has two rows, there are too few points, or a fit is underdetermined.
 ///
 /// # Reference
 /// Efron and Tibshirani, An Introduction to the Bootstrap (1993), chapter 11.

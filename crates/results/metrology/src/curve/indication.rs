@@ -4,7 +4,7 @@ use super::limits::{Figure, Standing, Table};
 use super::undefined::{CurveUndefined, all_positive, positive, range};
 use taceva_core::whole_size;
 
-/// Upper limits of q, b, v, f_0 and a in %, from a laboratory's workbook and not compared with the text of the standard.
+/// Upper limits of the [`IndicationFigures`] q, b, v, f_0 and a in %, from a laboratory's workbook and not compared with the text of the standard.
 const LIMITS: Table = Table {
     standard: "ISO 7500-1",
     figures: &["q", "b", "v", "f_0", "a"],
@@ -95,11 +95,11 @@ pub struct IndicationFigures {
     pub q_mean_u: Option<f64>,
     /// Range b = max q − min q; `None` for fewer than three repeats.
     pub b: Option<f64>,
-    /// Reversibility v = (F_up − F_down)/F̄ at one indicated force, %; `None` without an unloading reading.
+    /// Reversibility v = (F_up − F_down)/F̄ of the true forces at one indicated force, %; `None` without an unloading reading.
     pub v: Option<f64>,
-    /// Zero error f_0 = max |zero|/F_N, %; `None` without readings at zero force.
+    /// Zero error f_0, the greatest |reading at zero force| divided by the full scale, %; `None` without readings at zero force.
     pub f_0: Option<f64>,
-    /// Relative resolution a = resolution/F, %; `None` for an unknown resolution.
+    /// Relative resolution a = resolution / mean true force, %; `None` for an unknown resolution.
     pub a: Option<f64>,
 }
 
@@ -112,7 +112,7 @@ impl IndicationLevel {
         }
     }
 
-    /// Computes the figures. `full_scale` is F_N.
+    /// Computes the figures. `full_scale` is in the unit of the force.
     ///
     /// # Errors
     /// [`CurveUndefined::MissingSeries`] without a repeat, [`CurveUndefined::NotPositive`] for a full scale or resolution that is not above 0.
@@ -182,7 +182,7 @@ pub struct IndicationSummary {
     pub median_abs: f64,
     /// 95th percentile of |q| in %, interpolated between neighbours.
     pub p95_abs: f64,
-    /// Share of presses with |q| of at most 3 %, the limit in the last row of the table.
+    /// Share of presses with |q| of at most 3 %, the limit in the last row of the limits for [`IndicationFigures`].
     pub share_within_3: f64,
 }
 
@@ -190,7 +190,7 @@ impl IndicationSummary {
     /// Summarises presses with a defined q and skips other presses.
     ///
     /// # Errors
-    /// [`CurveUndefined::TooFewRows`] without any press.
+    /// [`CurveUndefined::TooFewRows`] without a press with a defined q.
     pub fn of(presses: &[Indication]) -> Result<IndicationSummary, CurveUndefined> {
         let mut sizes: Vec<f64> = presses
             .iter()

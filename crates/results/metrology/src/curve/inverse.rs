@@ -25,7 +25,7 @@ pub struct InversePrediction {
     pub high: f64,
     /// Half-width t u(x) without Fieller's correction, as in DIN 32645.
     pub half_width: f64,
-    /// Fieller's g, (t u(b)/b)²; 0 for an exact slope.
+    /// Fieller's g, (t u(b)/b)² for the slope b; 0 for an exact slope.
     pub g: f64,
     /// Source of the covariance with the wider interval.
     pub covariance: CovarianceOf,

@@ -4,7 +4,7 @@ use super::fit::{CurveFit, CurveRow};
 use super::limits::{Figure, Standing, Table};
 use super::undefined::{CurveUndefined, all_positive, range};
 
-/// Upper limits of b, b', f_c, f_0, v and c in %, not compared with the text of the standard.
+/// Upper limits of the [`ProvingFigures`] b, b', f_c, f_0, v and c in %, not compared with the text of the standard.
 const LIMITS: Table = Table {
     standard: "ISO 376",
     figures: &["b", "b'", "f_c", "f_0", "v", "c"],
@@ -55,7 +55,7 @@ pub struct ProvingSeries {
     pub full_scale: Option<f64>,
 }
 
-/// Figures of one force level, in % unless stated otherwise.
+/// Figures of one force level of a [`ProvingSeries`], which defines X1 to X6', in % unless stated otherwise.
 ///
 /// ```
 /// # use taceva_metrology::curve::ProvingSeries;
@@ -80,7 +80,7 @@ pub struct ProvingLevel {
     pub f_c: f64,
     /// v: mean of |X4' − X3|/X3 and |X6' − X5|/X5; `None` without unloading.
     pub v: Option<f64>,
-    /// w2 as a ratio: √(Σ(X_i − X̄_r)²/6)/X̄_r.
+    /// Relative uncertainty of rotation as a ratio: √(Σ(X_i − X̄_r)²/6)/X̄_r over X1, X3 and X5.
     pub w_rotation: f64,
 }
 
@@ -99,9 +99,9 @@ pub struct ProvingLevel {
 pub struct ProvingFigures {
     /// Levels, in the order of the forces.
     pub levels: Vec<ProvingLevel>,
-    /// f_0: (i_f − i_0)/X_N, in %; `None` without readings at zero force.
+    /// f_0: zero reading after minus before the series, divided by the full scale, in %; `None` without readings at zero force.
     pub f_0: Option<f64>,
-    /// c: (i_300 − i_30)/X_N, in %; `None` without creep readings.
+    /// c: reading after 300 s minus reading after 30 s, divided by the full scale, in %; `None` without creep readings.
     pub c: Option<f64>,
     /// Resolution, in the unit of the force; `None` if unknown.
     pub resolution: Option<f64>,
@@ -216,8 +216,9 @@ impl ProvingFigures {
         LIMITS.standing(&figures, may_have)
     }
 
-    /// Relative standard uncertainty of a level, as a ratio: √Σw² over the reference (`machine`, half of its U), rotation, b'/√3, resolution/(F√6),
-    /// c/√3, f_0, `temperature` and f_c. Missing figures count as 0.
+    /// Relative standard uncertainty of a level, as a ratio: root of the sum of the squares of eight terms. Missing figures count as 0.
+    ///
+    /// The terms are the reference (`machine`, half of its U), rotation, b'/√3, resolution/(F√6), c/√3, f_0, `temperature` and f_c.
     ///
     /// # Panics
     /// If there is no level with this index.

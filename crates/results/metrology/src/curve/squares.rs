@@ -33,7 +33,7 @@ impl Axis {
     }
 }
 
-/// Solution: coefficients, sum of squared residuals and (ZᵀZ)⁻¹.
+/// Solution: coefficients, sum of squared residuals, and (ZᵀZ)⁻¹ for the matrix Z of rows.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Solution {
     pub(super) coefficients: Coefficients,
@@ -84,7 +84,7 @@ pub(super) fn solve(rows: &[(Coefficients, f64)], count: usize) -> Option<Soluti
     })
 }
 
-/// (RᵀR)⁻¹ = R⁻¹R⁻ᵀ.
+/// Inverse of RᵀR for an upper triangle R: R⁻¹R⁻ᵀ.
 fn inverse_of_square(r: &Square, count: usize) -> Square {
     // Columns of R⁻¹.
     let mut columns = Square::default();

@@ -43,7 +43,7 @@ pub enum CurveUndefined {
     /// The slope does not differ significantly from 0: Fieller's g is 1 or more, and the inverse is unbounded.
     #[error("the slope is not shown to differ from 0: Fieller's g is {g:.3}, expected below 1")]
     SlopeNotShown {
-        /// Fieller's g, (t u(b)/b)².
+        /// Fieller's g, (t u(b)/b)² for the slope b.
         g: f64,
     },
     /// The figure is defined only for a line; the value is the order of the curve.

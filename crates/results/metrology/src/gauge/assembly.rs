@@ -23,7 +23,7 @@ struct Estimate {
     raw: Option<f64>,
     variance: f64,
     sd: f64,
-    /// Ratios to the total of variance and of standard deviation; `None` without variation.
+    /// Share of the total variance, and ratio to the total standard deviation; `None` without variation.
     shares: Option<[f64; 2]>,
 }
 

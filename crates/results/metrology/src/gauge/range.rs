@@ -55,10 +55,11 @@ impl RangeConstants {
     }
 }
 
-/// Mean of the range of `n` standard normal numbers raised to `power`, 1 or 2.
+/// Mean of R^`power` for the range R of `n` standard normal numbers; `power` is 1 or 2.
 fn moment(power: usize, n: usize) -> f64 {
-    /// Distance from the mean, in standard deviations, beyond which the density is negligible, and width of a panel.
+    /// Distance from the mean, in standard deviations, beyond which the density is negligible.
     const FAR: f64 = 9.0;
+    /// Width of a panel of the integral, in standard deviations.
     const WIDTH: f64 = 1.0;
     let between_count = n.saturating_sub(2);
     let n = real(count(n));

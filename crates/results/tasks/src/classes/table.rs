@@ -200,7 +200,7 @@ impl Confusion<'_> {
         estimate(found, range(found), &parts, of_constant)
     }
 
-    /// Score without each cluster: `value` of the margins of the cluster and of all other clusters.
+    /// Scores with one cluster left out, for each cluster. `value` receives the margins of this cluster and of all other clusters.
     fn left_out(&self, value: impl Fn(&PartMargins, &Margins) -> Score) -> Vec<Part> {
         let mut left = self.all.clone();
         let parts = self.parts.iter().map(|part| {
@@ -219,7 +219,7 @@ impl Margins {
         (self.n > 0).then(|| ratio(u128::from(self.most()), u128::from(self.n)))
     }
 
-    /// F1 of the class at `position` if all samples are predicted as this class: 2π / (1 + π); `None` for no sample.
+    /// F1 of the class at `position` if all samples are predicted as this class: 2π / (1 + π) for the share π of the class; `None` for no sample.
     fn f1_of_constant(&self, position: usize) -> Option<f64> {
         let truth = self.of[position].truth;
         (self.n > 0).then(|| ratio(2 * u128::from(truth), u128::from(self.n + truth)))

@@ -76,7 +76,7 @@ impl DepthMap {
         }
     }
 
-    /// Map of depths in the unit `mm`, `um` or `m`.
+    /// Map of depths in the unit `mm`, `um` (`µm`) or `m`.
     ///
     /// # Errors
     /// [`DepthError::Unit`] for another or an empty text; otherwise errors of [`new`](DepthMap::new).

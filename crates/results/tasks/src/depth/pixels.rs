@@ -13,14 +13,14 @@ pub(super) const COUNTS: usize = 10;
 /// Totals of a cluster of maps.
 pub(super) type DepthTotals = Totals<SUMS, COUNTS>;
 
-/// Indices of the sums and counts of an area: all valid pixels, or valid pixels with contact in the truth.
+/// Indices of the sums and counts of an area: all valid pixels, or valid pixels with contact in the truth. An error is truth − prediction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Area {
-    /// Index of Σ|t − p|, mm; Σ(t − p) and Σ(t − p)² follow.
+    /// Index of the sum of absolute errors, mm. The sums of errors and of squared errors follow.
     pub(super) sums: usize,
     /// Index of the number of pixels.
     pub(super) pixels: usize,
-    /// Index of the greatest error.
+    /// Index of the greatest absolute error.
     pub(super) greatest: usize,
 }
 
@@ -37,9 +37,9 @@ pub(super) const CONTACT: Area = Area {
     greatest: 1,
 };
 
-/// Index of Σ t p over all valid pixels, mm².
+/// Index of the sum of true depth × predicted depth over all valid pixels, mm².
 const TRUTH_BY_PREDICTION: usize = 6;
-/// Index of Σ p² over all valid pixels, mm².
+/// Index of the sum of squared predicted depths over all valid pixels, mm².
 const PREDICTIONS: usize = 7;
 /// Index of the sum of the mean absolute errors of maps, mm.
 pub(super) const MAP_MAE: usize = 8;
@@ -49,7 +49,7 @@ pub(super) const MAP_RMSE: usize = 9;
 pub(super) const MAP_BIAS: usize = 10;
 /// Index of the sum of the greatest errors of maps, mm.
 pub(super) const MAP_MAX: usize = 11;
-/// Index of the sum of area ratios over maps.
+/// Index of the sum over maps of the overlap (IoU) of true and predicted contact.
 pub(super) const MAP_IOU: usize = 12;
 /// Index of the sum of angles between normals, degrees.
 pub(super) const ANGLES: usize = 13;
@@ -74,7 +74,7 @@ pub(super) const ALL_MAPS: usize = 9;
 /// Totals of one pair of maps, and their greatest errors.
 pub(super) struct MapSums {
     pub(super) totals: DepthTotals,
-    /// Greatest |t − p| over all valid pixels and over pixels in contact, mm.
+    /// Greatest absolute error over all valid pixels and over pixels in contact, mm.
     pub(super) greatest: [f64; 2],
 }
 
@@ -109,7 +109,7 @@ impl MapSums {
         }
     }
 
-    /// Adds one pixel to the sums of `area`: |t − p|, t − p and (t − p)², all exactly.
+    /// Adds one pixel to the sums of `area`: the absolute error, the error truth − prediction and its square, all exactly.
     fn add_to(&mut self, area: Area, truth: f64, prediction: f64) {
         let [absolute, signed, squares] = area_sums(&mut self.totals, area);
         absolute.add(truth.max(prediction));
@@ -156,21 +156,23 @@ fn area_sums(totals: &mut DepthTotals, area: Area) -> &mut [ExactSum; 3] {
     sums.try_into().expect("three sums")
 }
 
-/// Mean of |t − p| for `which` 0, of t − p for 1; `None` without a pixel.
+/// Mean absolute error for `which` 0, mean of truth − prediction for 1; `None` without a pixel.
 pub(super) fn mean(totals: &DepthTotals, area: Area, which: usize) -> Option<f64> {
     let pixels = totals.counts[area.pixels];
     let sum = totals.sums[area.sums + which].to_dyadic();
     (pixels > 0).then(|| sum.over(&Dyadic::from(pixels)))
 }
 
-/// √(Σ(t − p)² / n), rounded once; `None` without a pixel.
+/// Root mean square error, rounded once; `None` without a pixel.
 pub(super) fn root_mean_square(totals: &DepthTotals, area: Area) -> Option<f64> {
     let pixels = totals.counts[area.pixels];
     let squares = totals.sums[area.sums + 2].to_dyadic();
     (pixels > 0).then(|| squares.root_over(&Dyadic::from(pixels)))
 }
 
-/// √(Σ(t − s p)² / n) with the factor s = Σ t p / Σ p² that minimises the root, rounded once; `None` without a pixel.
+/// Root mean square of t − s p for true depths t and predicted depths p, rounded once; `None` without a pixel.
+///
+/// The factor s = Σ t p / Σ p² minimises the root.
 pub(super) fn scaled_root_mean_square(totals: &DepthTotals) -> Option<f64> {
     let pixels = totals.counts[ALL.pixels];
     let sum = |index: usize| totals.sums[index].to_dyadic();

@@ -204,7 +204,7 @@ impl PoseState {
         self.clusters.names()
     }
 
-    /// Mean over the clusters of their mean lengths of differences of translations, mm; `None` without a pose.
+    /// Mean over the clusters of the mean translation error of each cluster, mm; `None` without a pose.
     pub(crate) fn mean_of_cluster_means(&self) -> Option<f64> {
         let means = self.clusters.values();
         let means = means.filter_map(|totals| totals.mean(TRANSLATION, POSES).ok());
@@ -251,7 +251,7 @@ impl PoseTask {
     }
 }
 
-/// Values of x, y and yaw side by side, with the number of the axis.
+/// Pairs of true and predicted bin of x, y and yaw, each with the index of the axis.
 fn pairs(truth: [usize; 3], prediction: [usize; 3]) -> impl Iterator<Item = (usize, [usize; 2])> {
     let both = truth.into_iter().zip(prediction);
     both.map(|(truth, prediction)| [truth, prediction])

@@ -35,7 +35,7 @@ pub(super) fn expected_error(levels: &[Level]) -> Result<f64, Undefined> {
     Ok(sum.to_dyadic().over(&Dyadic::from(n)))
 }
 
-/// Sum of true minus predicted shares in the current bin.
+/// Number of positive samples minus the sum of predicted probabilities, in the current bin.
 #[derive(Default)]
 struct Bins {
     at: u128,

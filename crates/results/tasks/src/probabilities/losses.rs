@@ -43,7 +43,7 @@ impl Losses {
         }
     }
 
-    /// Adds (p − 1)² or p², exactly.
+    /// Adds the squared difference of the probability `p` from 1 if `is_true`, otherwise from 0, exactly.
     fn add_square(&mut self, p: f64, is_true: bool) {
         self.squares.add_product(p, p);
         if is_true {

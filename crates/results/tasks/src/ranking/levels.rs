@@ -71,7 +71,7 @@ pub(crate) fn roc_auc(levels: &[Level]) -> Result<f64, Undefined> {
     Ok(ratio(halves, 2 * pairs))
 }
 
-/// Average precision: the sum over all levels of the precision at a level times the recall that it adds. `levels` ascend.
+/// Average precision: the sum over all levels of the precision at the level times the recall that the level adds. `levels` ascend.
 pub(crate) fn average_precision(levels: &[Level]) -> Result<f64, Undefined> {
     let positive = positives(levels)?;
     let mut above = Sides::default();

@@ -44,7 +44,7 @@ impl OneWay {
 pub(super) struct BothWays(pub(super) [OneWay; 2]);
 
 impl BothWays {
-    /// ½ (mean + mean) of distances, rounded once.
+    /// Half the sum of both mean distances, rounded once.
     pub(super) fn half_sum(&self) -> f64 {
         self.sum_of_means(|way| &way.distances).divided(2).to_f64()
     }
@@ -54,12 +54,12 @@ impl BothWays {
         self.sum_of_means(|way| &way.squares).to_f64()
     }
 
-    /// F score of the shares of distances below τ, rounded once.
+    /// F score of the shares of distances below the threshold τ, rounded once.
     pub(super) fn f_strict(&self) -> f64 {
         self.f_score(|way| way.below)
     }
 
-    /// F score of the shares of distances of τ or below, rounded once.
+    /// F score of the shares of distances of at most the threshold τ, rounded once.
     pub(super) fn f_inclusive(&self) -> f64 {
         self.f_score(|way| way.up_to)
     }

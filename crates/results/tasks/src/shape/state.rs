@@ -12,13 +12,13 @@ use crate::totals::{LeaveOneOut, Totals, checked_counts, error};
 use crate::undefined::Undefined;
 use crate::vector::GREATEST_MM;
 
-/// Index of the sum of ½ (mean + mean), mm.
+/// Index of the sum of Chamfer distances, each half the sum of both mean distances, mm.
 const HALF_SUM: usize = 0;
-/// Index of the sum of squared distances, mm².
+/// Index of the sum of squared Chamfer distances, each the sum of both means of squared distances, mm².
 const SQUARED: usize = 1;
-/// Index of the sum of F scores of distances below τ.
+/// Index of the sum of F scores of distances below the threshold τ.
 const F_STRICT: usize = 2;
-/// Index of the sum of F scores of distances up to τ.
+/// Index of the sum of F scores of distances up to the threshold τ.
 const F_INCLUSIVE: usize = 3;
 /// Index of the number of pairs of clouds.
 const CLOUDS: usize = 0;
@@ -211,7 +211,7 @@ impl ShapeState {
     }
 }
 
-/// Mean of ½ (mean + mean) of pairs of clouds, mm.
+/// Mean over the pairs of clouds of half the sum of both mean distances, mm.
 fn half_sum(totals: &ShapeTotals) -> Result<f64, Undefined> {
     totals.mean(HALF_SUM, CLOUDS)
 }

@@ -12,7 +12,7 @@ use crate::budget::shape::Shape;
 use crate::budget::text::value;
 
 impl Reader<'_> {
-    /// Measured figure that the source uses; `None` without `from`.
+    /// Measured figure that the source uses; `None` without `from`, and for the certificate.
     pub(super) fn figure(&self, of: &WrittenSource) -> Result<Option<&Figure>, BudgetError> {
         let Some(from) = of
             .from
