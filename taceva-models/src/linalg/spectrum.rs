@@ -40,7 +40,7 @@ pub(crate) fn symmetric_eigen(matrix: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<
     Ok((values, vectors))
 }
 
-/// Singular value decomposition X = U Σ Vᵀ. One Gram matrix gives Σ² and either U or V.
+/// Singular value decomposition X = U Σ Vᵀ of a design matrix X. One Gram matrix gives Σ² and either U or V.
 #[derive(Debug)]
 pub(crate) struct Spectrum<'d, 'a> {
     design: &'d Design<'a>,
