@@ -131,7 +131,7 @@ impl Claim {
         full_name(&self.metric, self.variant.as_deref())
     }
 
-    /// All facts except the value as text, for formats that have no fields for them.
+    /// All facts of the claim except its value, as text, for formats without fields for these facts.
     pub(crate) fn facts(&self) -> String {
         let interval = match self.ci95 {
             Some([low, high]) => format!("ci95 [{low}, {high}]"),

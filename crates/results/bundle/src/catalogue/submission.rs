@@ -35,7 +35,7 @@ pub(super) struct Submission {
     pub(super) manifest: Manifest,
     /// Text of the manifest, byte for byte.
     pub(super) text: String,
-    /// Digest of that text, as `sha256:` and digits.
+    /// Digest of the text of the manifest, as `sha256:` and digits.
     pub(super) digest: String,
     /// Rows by the name of the sensor in the results.
     pub(super) sensors: BTreeMap<String, Vec<Measured>>,

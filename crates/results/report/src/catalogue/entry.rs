@@ -59,7 +59,7 @@ pub struct Sensor {
     /// Numbers of bundles whose samples are simulated or synthetic.
     #[serde(default)]
     pub simulated: Vec<Measured>,
-    /// Digest of the samples behind the results of a measured candidate; `None` for published numbers.
+    /// Digest of the samples behind `results`, if these are numbers of a bundle or of a result; `None` for published numbers.
     #[serde(skip)]
     pub samples: Option<String>,
     /// Prediction errors on pictures or signals with faults; `None` if no fault was tested.

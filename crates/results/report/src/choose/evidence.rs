@@ -135,7 +135,7 @@ fn evidence(studies: &[Study], needs: &[Need], choice: &Choice) -> Vec<Evidence>
     comparison.answers.iter().filter_map(of_answer).collect()
 }
 
-/// Position of the significantly better study by the needed property, for a score without a better direction.
+/// Position of the significantly better study for a score without a better direction. The direction of `property` decides.
 fn by_need(answer: &Answer, property: Property) -> Option<usize> {
     let describes = answer.direction == Better::Described;
     let difference = answer.difference.as_ref();
