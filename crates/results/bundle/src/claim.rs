@@ -95,7 +95,7 @@ impl Claim {
         }
     }
 
-    /// Same claim with the value, interval and definition from `report`; unchanged if `report` lacks the score.
+    /// Same claim with the value, interval, unit, number of samples and definition from `report`; unchanged if `report` lacks the score.
     pub(crate) fn as_in(&self, report: &EvaluationReport) -> Claim {
         let score = self.score_in(&report.scores);
         let variant = self.variant.as_deref();

@@ -50,7 +50,7 @@ pub struct Choice {
     pub unknown: Vec<String>,
     /// Number of sensors without an exact price in a currency of the needs, by the currency of their exact prices.
     pub other_currencies: BTreeMap<String, usize>,
-    /// Significant differences between ranked sensors; `None` if nothing was tested, for example with published numbers.
+    /// Significant differences between ranked sensors; `None` for a choice by [`choose`], which tests nothing.
     pub evidence: Option<Vec<Evidence>>,
     /// Remark that ranking errors are not comparable, if the label spreads of the sensors differ.
     pub spread: Option<String>,

@@ -45,8 +45,8 @@ impl Submission {
     /// Verifies the bundle of `request` and reads its numbers.
     ///
     /// # Errors
-    /// [`CatalogueFolderError::Unverified`] for a bundle that differs from its files. [`CatalogueFolderError::Refused`] for a damaged bundle, a
-    /// draft, or a bundle without a sensor name.
+    /// [`CatalogueFolderError::Unverified`] for a bundle with a number that differs from the number computed from its files.
+    /// [`CatalogueFolderError::Refused`] for a damaged bundle, a draft, or a bundle without a sensor name.
     pub(super) fn read(request: &AddRequest) -> Result<Submission, CatalogueFolderError> {
         let path = request.bundle.as_path();
         let refused = |problem: String| CatalogueFolderError::refused(path, problem);

@@ -34,9 +34,9 @@ r = 1.0
 coverage = 0.95
 "#;
 
-/// Limits file for [`super::LimitsFile::read`] with limits that `study` meets. Each score with a better direction gets one limit. The limit is a fifth worse
-/// than the value, or at the worse end of its interval if that is farther away. The rule is `guarded`, or `simple` if the interval is missing or leaves no room
-/// for a guard band.
+/// Limits file for [`super::LimitsFile::read`] with limits that `study` meets. Each headline score that takes part in verdicts and has a better
+/// direction gets one limit. The limit is a fifth worse than the value, or at the worse end of its interval if that is farther away. For R² and
+/// skill, 1 − value is a fifth larger at the limit. The rule is `guarded`, or `simple` if the interval is missing or leaves no room for a guard band.
 ///
 /// ```
 /// use taceva_report::{LimitsFile, Study, accept, limits_template};

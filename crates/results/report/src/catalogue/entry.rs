@@ -145,7 +145,8 @@ impl Sensor {
         Sensor::slug_of(&self.name)
     }
 
-    /// Name for files and links of a sensor called `name`. Replaces each character other than lower-case ASCII letters and digits by `-`.
+    /// Name for files and links of a sensor called `name`. Converts ASCII letters to lower case, and replaces each character other than ASCII letters
+    /// and digits by `-`.
     pub fn slug_of(name: &str) -> String {
         let letters = name.chars().map(|letter| {
             if letter.is_ascii_alphanumeric() {

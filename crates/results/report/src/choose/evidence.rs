@@ -156,8 +156,8 @@ fn spread(studies: &[Study], names: &[String], choice: &Choice) -> Option<String
 }
 
 impl Choice {
-    /// Sentences on tests: the best sensor against each other sensor, then other significant differences. Empty if nothing was tested, for example with
-    /// published numbers.
+    /// Sentences on tests: the best sensor against each other sensor, then other significant differences. Empty for a choice without tests, or if no
+    /// need ranks the sensors.
     pub(super) fn tested(&self) -> Vec<String> {
         let Some(best) = self.ranked.first().filter(|_| self.evidence.is_some()) else {
             return Vec::new();

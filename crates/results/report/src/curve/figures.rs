@@ -169,7 +169,7 @@ impl CalibrationCurve {
         }
     }
 
-    /// Appends a warning to `remark` if no row is near the reference value `x`.
+    /// Appends a warning to `remark` if `x` is outside the range of the reference values.
     fn within(&self, x: f64, remark: String) -> String {
         let [low, high] = self.fit.range();
         // The ends themselves are rounded.
