@@ -118,7 +118,8 @@ impl<'d, 'a> Spectrum<'d, 'a> {
         }
     }
 
-    /// Matrix U with one row per sample and one column per eigenvalue. Columns are zero for eigenvalues of [`noise`](Spectrum::noise).
+    /// Matrix U with one row per sample and one column per eigenvalue. Columns for eigenvalues of [`noise`](Spectrum::noise) are zero, unless the
+    /// vectors [span the samples](Spectrum::spans_samples).
     pub(crate) fn sample_vectors(&self) -> Mat<f64> {
         match self.side {
             Side::Samples => self.vectors.clone(),

@@ -12,8 +12,8 @@ pub(crate) const LINE: usize = 32;
 /// Minimum number of products in a part of a sum.
 const LEAST: usize = 128;
 
-/// Number of equal parts of each sum of `length` products in a matrix of `rows` × `columns`, to occupy the GPU. The length of a part is a
-/// multiple of `line`.
+/// Number of equal parts of each sum of `length` products in a matrix of `rows` × `columns`, to occupy the GPU. With several parts, the length of
+/// each is a multiple of `line`.
 pub(crate) fn stack(length: usize, line: usize, [rows, columns]: [usize; 2]) -> usize {
     let tiles = rows.div_ceil(64) * columns.div_ceil(64);
     let wanted = (BUSY / tiles).min(length / LEAST).max(1);
