@@ -13,7 +13,7 @@ use crate::update::Update;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Optimizer {
-    /// Stochastic gradient descent: v ← momentum · v + g + decay · w, w ← w − rate · v.
+    /// Stochastic gradient descent of a weight w with gradient g and velocity v: v ← momentum · v + g + decay · w, w ← w − rate · v.
     Sgd {
         /// Factor of the previous velocity, at least 0 and below 1.
         momentum: f64,
@@ -130,7 +130,7 @@ pub enum Rule {
     Adam(Adam),
 }
 
-/// v ← `momentum` · v + g + `decay` · w, w ← w − `rate` · v.
+/// Step of a weight w with gradient g and velocity v: v ← `momentum` · v + g + `decay` · w, w ← w − `rate` · v.
 #[derive(Clone, Copy, Debug)]
 pub struct Momentum {
     /// Factor of the previous velocity.
@@ -141,7 +141,8 @@ pub struct Momentum {
     pub rate: f32,
 }
 
-/// m ← β₁ · m + `news.0` · g, s ← β₂ · s + `news.1` · g², w ← `keep` · w − `step` · m / (√s · `correction` + `epsilon`).
+/// Step of a weight w with gradient g, mean gradient m and mean squared gradient s: m ← β₁ · m + `news.0` · g, s ← β₂ · s + `news.1` · g², w ← `keep`
+/// · w − `step` · m / (√s · `correction` + `epsilon`).
 #[derive(Clone, Copy, Debug)]
 pub struct Adam {
     /// Factor of the present weights.

@@ -190,7 +190,7 @@ impl<'a> Trainer<'a> {
     ///
     /// # Errors
     /// [`NetworkError::LossNotFinite`] or [`NetworkError::WeightNotFinite`] with the step. Every further call returns the same error.
-    /// [`finish`](Trainer::finish) and checkpoints still contain the network of the best epoch.
+    /// [`finish`](Trainer::finish) and checkpoints still contain the network of the best epoch, if any. Otherwise errors of the [`Engine`].
     pub fn step(&mut self) -> Result<Option<Step>, NetworkError> {
         if let Some(breakage) = self.state.broken {
             return Err(breakage.into());

@@ -122,7 +122,7 @@ impl Auto {
         })
     }
 
-    /// Finer network features, for frames that are large enough and without a requested grid.
+    /// Features of networks, on a finer grid than other models; used for large enough frames if the user requests no grid.
     pub(crate) const CLOSER: Option<FeatureSpec> = NetworkEstimator::CNN.features;
 }
 

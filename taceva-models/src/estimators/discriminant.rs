@@ -26,8 +26,8 @@ use crate::training::regressor::ModelRegressor;
 /// Linear discriminants: predict each channel as one of its training values. Features are whitened by the scatter of samples with equal value. The prediction
 /// is the value with the nearest mean ([`Discriminant`]).
 ///
-/// Suitable for boards, kinds and levels. A channel with more than 256 values is rejected. No setting is chosen, so the validation part is only used to compute
-/// an error.
+/// Suitable for channels with few distinct labels, such as the number of a board. A channel with more than 256 values is rejected. No setting is
+/// chosen, so the validation part is only used to compute an error.
 ///
 /// # Reference
 /// R. A. Fisher, Ann. Eugen. 7 (1936) 179; O. Ledoit, M. Wolf, J. Multivar. Anal. 88 (2004) 365, eqs. 9-14.

@@ -19,7 +19,8 @@ use crate::training::info::ModelInfo;
 use crate::training::problem::{Problem, centred};
 use crate::training::trials::{Trials, rows_of};
 
-/// Elastic net: minimises ½n⁻¹ Σ (y − b − wᵀx)² + λ (α‖w‖₁ + ½(1 − α)‖w‖²) for each channel. The intercept b is not penalised.
+/// Elastic net: minimises ½n⁻¹ Σ (y − b − wᵀx)² + λ (α‖w‖₁ + ½(1 − α)‖w‖²) for each channel. The sum is over n samples with features x and label y,
+/// and α is the setting `mix`. The intercept b is not penalised.
 ///
 /// λ is the strength × the least λ at which every weight is 0. The strength of each channel is one of the 25 values 1, 10⁻¹ᐟ⁶ … 10⁻⁴. The chosen strength has
 /// the least squared error on the validation part, or on folds of the training part if there is no validation part.

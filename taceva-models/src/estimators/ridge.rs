@@ -18,7 +18,7 @@ use crate::training::fit::estimator;
 use crate::training::info::ModelInfo;
 use crate::training::problem::{Problem, Validation, centred, joined, stacked};
 
-/// Ridge regression: minimises Σ (y − b − wᵀx)² + λ‖w‖² for each channel. The intercept b is not penalised.
+/// Ridge regression: minimises Σ (y − b − wᵀx)² + λ‖w‖² over samples with features x and label y, for each channel. The intercept b is not penalised.
 ///
 /// λ is the strength × the mean eigenvalue of the centred Gram matrix. A strength therefore has the same meaning for bright and dark pictures, and
 /// for many and few pictures. Each channel has one of the 41 strengths 10⁻⁶, 10⁻⁵·⁷⁵ … 10⁴: the strength of least squared error on the validation

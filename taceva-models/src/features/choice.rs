@@ -36,8 +36,8 @@ impl OpenFeatures {
         (open.size || open.difference).then_some((open, rest))
     }
 
-    /// Candidate features around `spec`, the simplest first. Grids have 1/4, 1/2, 1 and 2 times the resolution of `spec`, as far as frames
-    /// of `info` allow. Signals have one grid. Grids are tried without a reference and, if given, with the difference from the reference.
+    /// Candidate features around `spec`, the simplest first. Grids have 1/4, 1/2, 1 and 2 times the resolution of `spec`, as far as frames of `info`
+    /// allow. Signals have one grid. Each grid is tried without a difference and, if there is a reference, with the difference from the reference.
     ///
     /// ```
     /// use taceva_core::{FrameInfo, PixelFormat};

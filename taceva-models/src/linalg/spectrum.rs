@@ -40,7 +40,7 @@ pub(crate) fn symmetric_eigen(matrix: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<
     Ok((values, vectors))
 }
 
-/// Singular value decomposition X = U Σ Vᵀ. One Gram matrix gives Σ² and either U or V.
+/// Singular value decomposition X = U Σ Vᵀ of a design matrix X. One Gram matrix gives Σ² and either U or V.
 #[derive(Debug)]
 pub(crate) struct Spectrum<'d, 'a> {
     design: &'d Design<'a>,
@@ -118,7 +118,8 @@ impl<'d, 'a> Spectrum<'d, 'a> {
         }
     }
 
-    /// Matrix U with one row per sample and one column per eigenvalue. Columns are zero for eigenvalues of [`noise`](Spectrum::noise).
+    /// Matrix U with one row per sample and one column per eigenvalue. Columns for eigenvalues of [`noise`](Spectrum::noise) are zero, unless the
+    /// vectors [span the samples](Spectrum::spans_samples).
     pub(crate) fn sample_vectors(&self) -> Mat<f64> {
         match self.side {
             Side::Samples => self.vectors.clone(),

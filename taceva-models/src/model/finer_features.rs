@@ -6,7 +6,7 @@ use super::{FitInput, Model, with_features};
 use crate::features::FeatureSpec;
 use crate::linalg::invalid;
 
-/// Finer features of the samples of a fit.
+/// Features of the samples of a fit on a finer grid.
 #[derive(Clone, Copy, Debug)]
 pub struct CloserFeatures<'a> {
     /// Specification of the features.

@@ -36,7 +36,7 @@ impl FoldSpec {
     /// ```
     ///
     /// # Errors
-    /// [`SplitError`] if `input` lacks the names of the groups, or has fewer groups than folds.
+    /// [`SplitError`] if `input` lacks the names of the groups, or has fewer than two groups or fewer groups than folds.
     pub fn folds(
         &self,
         input: &SplitInput<'_>,

@@ -13,7 +13,7 @@ pub enum ChosenBy {
     Validation,
     /// Least squared error on groups left out in turn.
     LeaveOneGroupOut,
-    /// Likelihood of the training labels.
+    /// Greatest likelihood of the training labels.
     Likelihood,
     /// Least squared error on samples left out in turn.
     LeaveOneOut,

@@ -96,7 +96,7 @@ impl<'a> Trials<'a> {
         self.labels.nrows() > self.training
     }
 
-    /// Mean squared error of each channel at each candidate. `squares` returns the summed squared errors of a round.
+    /// Mean squared error of each channel at each candidate; `None` if nothing is held out. `squares` returns the summed squared errors of a round.
     pub(crate) fn errors(
         &self,
         progress: &dyn Progress,

@@ -18,7 +18,7 @@ pub(crate) enum Shortcut<'a> {
     Normalised(&'a Planes, &'a Moments),
 }
 
-/// Computes into = max(0, raw · scale + shift + shortcut) for the first `count` pictures.
+/// Computes into = max(0, raw · scale + shift + shortcut) for the first `count` pictures, with scale and shift of `moments`.
 pub(crate) fn apply(
     machine: Machine,
     raw: &Planes,

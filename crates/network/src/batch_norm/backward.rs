@@ -21,7 +21,8 @@ pub(crate) enum Gate<'a> {
     Output(&'a Planes),
 }
 
-/// Sums over a batch that the gradients need, one value per channel.
+/// Sums over a batch that the gradients need, one value per channel. g is the masked output gradient, x the input of the normalisation and n the
+/// number of values per channel; mean and inverse are fields of [`Moments`].
 #[derive(Clone, Debug)]
 pub(crate) struct GradientSums {
     /// Σ g, the gradient of the bias.
@@ -97,7 +98,8 @@ impl GradientSums {
     }
 }
 
-/// Writes the gradient of the normalisation's input for the first `count` pictures: scale · (g − Σg/n − (x − mean) · inverse² · Σ(g · (x − mean))/n).
+/// Writes the gradient of the normalisation's input for the first `count` pictures: scale · (g − Σg/n − (x − mean) · inverse² · Σ(g · (x − mean))/n),
+/// with g, x and n of [`GradientSums`].
 pub(crate) fn input_gradient(
     machine: Machine,
     raw: Pictures<'_>,

@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::{Convolution, winograd};
 use crate::picture::Picture;
 
-/// Maximum number of transformed weights per tile of a picture in [`ConvolutionForm::Mixed`]: 128 channels from 4 tiles on, 256 from 13 on.
+/// Maximum number of transformed weights per tile of a picture for Winograd's algorithm in [`ConvolutionForm::Mixed`]. Layers of 128 channels need at
+/// least 4 tiles, layers of 256 channels at least 13.
 const WEIGHTS_A_TILE: usize = 3 << 16;
 
 /// Algorithm for convolutions with a 3 × 3 kernel and stride 1. The algorithms round differently, so results differ in the last digits.

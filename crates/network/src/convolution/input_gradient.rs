@@ -41,7 +41,7 @@ impl InputGradient {
         }
     }
 
-    /// Runs the pass on the first `count` pictures. `exchanged` is a buffer with the length of the weights.
+    /// Runs the pass on the first `count` pictures. `exchanged` is a buffer for the weights with inputs and outputs exchanged.
     pub(crate) fn run(
         &self,
         machine: Machine,

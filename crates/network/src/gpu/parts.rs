@@ -6,14 +6,14 @@ use burn_tensor::backend::Backend;
 /// Number of tiles of 64 × 64 that occupy a GPU. Products with fewer tiles are computed in parts, which are then added.
 const BUSY: usize = 512;
 
-/// Number of values of a window that are never divided between parts.
+/// Number of consecutive values of a window that always stay in one part.
 pub(crate) const LINE: usize = 32;
 
 /// Minimum number of products in a part of a sum.
 const LEAST: usize = 128;
 
-/// Number of equal parts of each sum of `length` products in a matrix of `rows` × `columns`, to occupy the GPU. The length of a part is a
-/// multiple of `line`.
+/// Number of equal parts of each sum of `length` products in a matrix of `rows` × `columns`, to occupy the GPU. With several parts, the length of
+/// each is a multiple of `line`.
 pub(crate) fn stack(length: usize, line: usize, [rows, columns]: [usize; 2]) -> usize {
     let tiles = rows.div_ceil(64) * columns.div_ceil(64);
     let wanted = (BUSY / tiles).min(length / LEAST).max(1);

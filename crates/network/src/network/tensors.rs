@@ -73,7 +73,7 @@ impl Network {
     /// Builds a network from tensors. Ignores PyTorch's batch counters.
     ///
     /// # Errors
-    /// [`NetworkError`] if a tensor is missing, unexpected, of the wrong shape, or not finite.
+    /// [`NetworkError`] if the architecture is invalid, or a tensor is missing, unexpected, of the wrong shape, or not finite.
     pub fn from_tensors(
         architecture: &Architecture,
         tensors: impl IntoIterator<Item = NamedTensor>,

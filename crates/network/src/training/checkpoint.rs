@@ -78,8 +78,8 @@ impl<'a> Trainer<'a> {
     /// Resumes the training of `checkpoint`, with the same samples and the algorithm in the checkpoint.
     ///
     /// # Errors
-    /// [`NetworkError::Checkpoint`] if the number of samples differs, or if a tensor of the optimiser does not match. Otherwise errors of [`new`](Trainer::new)
-    /// and [`Network::from_tensors`].
+    /// [`NetworkError::Checkpoint`] if the number of samples differs, if the present or the best network is missing, or if a tensor of the optimiser
+    /// does not match. Otherwise errors of [`new`](Trainer::new) and [`Network::from_tensors`].
     pub fn resume(
         checkpoint: Checkpoint,
         training: Samples<'a>,

@@ -95,7 +95,7 @@ impl Claim {
         }
     }
 
-    /// Same claim with the value, interval and definition from `report`; unchanged if `report` lacks the score.
+    /// Same claim with the value, interval, unit, number of samples and definition from `report`; unchanged if `report` lacks the score.
     pub(crate) fn as_in(&self, report: &EvaluationReport) -> Claim {
         let score = self.score_in(&report.scores);
         let variant = self.variant.as_deref();
@@ -131,7 +131,7 @@ impl Claim {
         full_name(&self.metric, self.variant.as_deref())
     }
 
-    /// All facts except the value as text, for formats that have no fields for them.
+    /// All facts of the claim except its value, as text, for formats without fields for these facts.
     pub(crate) fn facts(&self) -> String {
         let interval = match self.ci95 {
             Some([low, high]) => format!("ci95 [{low}, {high}]"),

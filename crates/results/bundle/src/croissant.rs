@@ -155,8 +155,8 @@ fn record_set(table: &TableColumns) -> Value {
     })
 }
 
-/// Field of a column. Identifiers contain no blanks, so a column with a blank in its name is numbered. Names that begin like a numbered column are
-/// also numbered.
+/// Field of a column. Identifiers contain only letters, digits, `_`, `.` and `-`, so a column with another name is numbered. Names that begin like a
+/// numbered column are also numbered.
 fn field(table: &TableColumns, record_set: &str, position: usize, column: &Column) -> Value {
     let is_plain = |letter: char| letter.is_alphanumeric() || "_.-".contains(letter);
     let is_numbered = column.name.starts_with(NUMBERED) || !column.name.chars().all(is_plain);

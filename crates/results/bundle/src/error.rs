@@ -34,7 +34,7 @@ pub enum BundleError {
     /// A state or a table is refused.
     #[error(transparent)]
     Evaluate(#[from] EvaluateError),
-    /// A file of the request does not belong to the others.
+    /// A file of the request does not belong to the other files.
     #[error("{}: {problem}", shown(path))]
     Input {
         /// Path of the file.

@@ -95,7 +95,8 @@ pub fn expected_licence(text: &str) -> String {
     )
 }
 
-/// True if `text` may be an identifier that another version knows: letters, digits, `.`, `-` and `+`. A `LicenseRef-…` has no page at SPDX.
+/// True if `text` may be an identifier that another version knows: letters, digits, `.`, `-` and `+`. False for a `LicenseRef-…`, which has no page
+/// at SPDX.
 pub(crate) fn has_form(text: &str) -> bool {
     let is_part = |letter: char| letter.is_ascii_alphanumeric() || ".-+".contains(letter);
     let has_page = !text.starts_with("LicenseRef-");

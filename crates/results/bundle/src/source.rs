@@ -174,7 +174,7 @@ pub(crate) fn digest_of(path: &Path) -> Result<String, BundleError> {
     digest().map_err(failed)
 }
 
-/// Folder with the manifest: the only folder in `content`, else `content` itself.
+/// Folder with the manifest: `content` itself, or the only folder in `content`.
 fn innermost(content: PathBuf) -> PathBuf {
     if content.join(MANIFEST).exists() {
         return content;

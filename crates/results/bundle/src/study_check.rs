@@ -100,7 +100,7 @@ impl StudyCheck<'_> {
         }
     }
 
-    /// The verdict on a claim of the model after a repeated fit.
+    /// Verdict on a claim that reached [`Level::Model`], after a repeated fit.
     fn by_fit(&self, mut check: ClaimCheck, claim: &Claim) -> ClaimCheck {
         let scores = match &self.again.fit {
             Ok(FitScores::Other(scores)) => scores,
@@ -128,7 +128,7 @@ impl StudyCheck<'_> {
         check.ended(verdict, reason)
     }
 
-    /// The verdict on a claim of the tables after their comparison with the model.
+    /// Verdict on a claim that reached [`Level::Predictions`], after the comparison of the tables with the model.
     fn by_model(&self, mut check: ClaimCheck) -> ClaimCheck {
         let found = match &self.again.model {
             Ok(found) => found,

@@ -185,7 +185,7 @@ impl Verification {
 
     /// Outcome in one word.
     ///
-    /// If no level is requested, a claim counts as verified although the bundle lacks the files for a deeper level.
+    /// If no level is requested, a claim counts as verified even if the bundle lacks the files for a deeper level.
     pub fn outcome(&self) -> Outcome {
         if !self.damage.is_empty() {
             return Outcome::Damaged;

@@ -91,7 +91,8 @@ impl Live {
         self.shared.inside().state.predicted = Some(frames);
     }
 
-    /// Sets the callback `heard` for pictures with a prediction sent to a browser. Each call receives the stamp of one frame, s.
+    /// Sets the callback `heard`, which is called for each picture with a prediction that is sent to a browser. The argument is the stamp of the
+    /// frame, s.
     ///
     /// The callback runs on a thread of the page. Later callbacks are ignored.
     pub fn on_sent(&self, heard: impl Fn(f64) + Send + Sync + 'static) {

@@ -22,7 +22,7 @@ pub struct BudgetReport {
     pub budgets: Vec<Budget>,
     /// Sensor of the result that contains the measured figures; `None` without a result.
     pub sensor: Option<String>,
-    /// Origins of the samples of these figures, such as `recorded` and `simulated`.
+    /// Origins of the samples behind the measured figures, such as `recorded` and `simulated`.
     pub origins: Vec<String>,
     /// Digest of the budget file.
     pub digest: String,

@@ -18,15 +18,15 @@ const fn source(figure: &'static str, name: &'static str, keys: &'static str) ->
 
 /// Correction of the mean residual.
 pub(crate) const BIAS: BudgetSource = source("bias", "mean residual", "");
-/// Residuals from place to place.
+/// Variation of the residuals between places on the gel.
 pub(crate) const BETWEEN: BudgetSource = source("error.between", "place to place", "");
-/// Residual of one reading at its place.
+/// Scatter of the residual of one reading at one place on the gel.
 pub(crate) const WITHIN: BudgetSource = source("error.within", "one reading", "readings = 1\n");
-/// Repeated presses. [`WITHIN`] includes them.
+/// Scatter of repeated presses. [`WITHIN`] includes this scatter.
 pub(crate) const REPEATS: BudgetSource = source("repeatability", "repeats", "readings = 1\n");
-/// Zero heights of depths. Residuals and repeats include their errors.
+/// Zero height of the depths. [`WITHIN`], [`BETWEEN`] and [`REPEATS`] include its error.
 pub(crate) const ZERO: BudgetSource = source("zero_u_mm", "zero of depths", "");
-/// Light scenes.
+/// Errors in other light scenes.
 pub(crate) const LIGHT: BudgetSource = source("r_light", "other light", "");
 /// Change of the zero over time.
 pub(crate) const DRIFT: BudgetSource = source(

@@ -48,9 +48,9 @@ pub struct Choice {
     pub other_definitions: Vec<Dropped>,
     /// Sensors without any number that the needs use, by any definition.
     pub unknown: Vec<String>,
-    /// Number of sensors by currency that no bound on a price compares, because their exact prices have other currencies.
+    /// Number of sensors without an exact price in a currency of the needs, by the currency of their exact prices.
     pub other_currencies: BTreeMap<String, usize>,
-    /// Significant differences between ranked sensors; `None` if nothing was tested, for example with published numbers.
+    /// Significant differences between ranked sensors; `None` for a choice by [`choose`], which tests nothing.
     pub evidence: Option<Vec<Evidence>>,
     /// Remark that ranking errors are not comparable, if the label spreads of the sensors differ.
     pub spread: Option<String>,
@@ -132,7 +132,7 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
     choose_together(sensors, needs, |_| Vec::new())
 }
 
-/// Same as [`choose`]. `take_apart` removes sensors that cannot be ranked together from the remaining sensors.
+/// Same as [`choose`]. From the sensors that meet all hard needs, `take_apart` removes those that cannot be ranked together.
 fn choose_together(
     sensors: &[Sensor],
     needs: &[Need],
@@ -184,7 +184,7 @@ fn choose_together(
     choice
 }
 
-/// Number of sensors by currency whose exact prices all have other currencies than the needs bound; empty if no need bounds a price.
+/// Number of sensors without an exact price in a currency of `needs`, by the currency of their exact prices. Empty if no need bounds a price.
 fn other_currencies(sensors: &[Sensor], needs: &[Need]) -> BTreeMap<String, usize> {
     let asked = needs.iter().flat_map(Need::properties);
     let asked: Vec<&str> = asked.filter_map(Property::currency).collect();
@@ -204,7 +204,7 @@ fn other_currencies(sensors: &[Sensor], needs: &[Need]) -> BTreeMap<String, usiz
     counts
 }
 
-/// Numbers of `sensor` with other definitions than the needs, each property once.
+/// Numbers of `sensor` for the properties in `needs`, but by other definitions; each property once.
 fn by_other_definition(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let properties = needs.iter().flat_map(Need::properties);
     let found = taceva_core::distinct(properties.filter_map(|property| {

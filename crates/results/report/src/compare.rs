@@ -36,9 +36,9 @@ use taceva_results::Score;
 /// Options of a comparison.
 #[derive(Clone, Debug, Default)]
 pub struct CompareRequest {
-    /// Metrics to compare. Empty selects all with a single number and a better direction.
+    /// Metrics to compare. An empty list selects all metrics with a single number and a better direction.
     pub metrics: Vec<String>,
-    /// Equivalence margin by `mae` or `mae.Fz`; the more specific name takes precedence.
+    /// Equivalence margins by name: `mae` for all channels, `mae.Fz` for one channel. The more specific name takes precedence.
     pub margins: BTreeMap<String, f64>,
     /// Seed of the random signs of the sign-flip test.
     pub seed: u64,

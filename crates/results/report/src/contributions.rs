@@ -1,4 +1,4 @@
-//! Bar chart of a budget: signed contribution of each source as a bar, and U as a line.
+//! Bar chart of a budget: signed contribution of each source as a bar, and the expanded uncertainty U as a line.
 
 use taceva_metrology::budget::{Budget, Source};
 

@@ -3,10 +3,10 @@
 use taceva_metrology::budget::{Figure, Freedom};
 use taceva_results::Samples;
 
-/// Channel of depths, the only channel with a zero.
+/// Channel of depths, the only channel with a zero height.
 const DEPTH: &str = "Pz";
 
-/// Figure of `channel` from the column [`Samples::ZERO_U`]: the root mean square of the standard uncertainties of its zeros.
+/// Figure of `channel` from the column [`Samples::ZERO_U`]: the root mean square of the standard uncertainties of the zero heights.
 ///
 /// A note states the number of depths that are measured from the first contact, to which the figure does not apply.
 ///
@@ -22,7 +22,7 @@ const DEPTH: &str = "Pz";
 /// ```
 ///
 /// # Errors
-/// A message if `channel` has no zero, or no sample has a fitted zero.
+/// A message if `channel` is not the depth, or if no sample has a fitted zero height.
 pub fn depth_zero_figure(samples: &Samples, channel: &str) -> Result<Figure, String> {
     let labels = samples.channel(channel).filter(|_| channel == DEPTH);
     let labels = labels.ok_or_else(|| {

@@ -142,8 +142,8 @@ fn spreads<'a>(
     (!found.is_empty()).then_some(found)
 }
 
-/// Standard deviation of the labels of a channel in a part of the protocol; for a plane, the mean over both axes. Without samples, returns RMSE / √(1 − R²) of
-/// the calibration; `None` for planes, which have no R².
+/// Standard deviation of the labels of a channel in a part of the protocol; for a plane, the mean over both axes. Without samples of the calibration,
+/// computed from its scores as RMSE / √(1 − R²).
 fn spread(study: &Study, part: &str, channel: &str) -> Option<f64> {
     let Some(axes) = plane_axes(channel) else {
         return of_channel(study, part, channel);

@@ -315,7 +315,7 @@ impl ResultScore {
         }
     }
 
-    /// Direction of good values.
+    /// Better direction of the score.
     pub(crate) fn better(&self) -> Better {
         TaskScore::direction(&self.metric, self.unit.as_deref())
     }

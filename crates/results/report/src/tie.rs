@@ -90,7 +90,7 @@ pub(crate) fn tie(studies: &[Study], names: &[String], metric: &str, channel: &s
     })
 }
 
-/// Sentence on the finest spacing that the tied studies predict, at a share of `best`.
+/// Sentence on the finest grating spacing that the tied studies predict. `best` is their common success rate.
 fn gratings(tied: &[&Rival<'_>], best: f64, channel: &str) -> String {
     let who: Vec<String> = tied.iter().map(|one| one.name.to_owned()).collect();
     let who = match who.len() {

@@ -45,7 +45,7 @@ impl Candidate {
     }
 }
 
-/// Models of `models` and `libraries` that support a training part of these sizes, the cheapest first.
+/// Models of `models` and `libraries` that support a training part of these sizes, the cheapest first. A network counts with a tenth of its work.
 pub(super) fn candidates(
     models: &'static [ModelInfo],
     libraries: &[&'static LibraryModel],

@@ -9,7 +9,7 @@ use crate::training::fit::ModelEstimator;
 pub(super) struct Entrant {
     pub(super) candidate: Candidate,
     pub(super) estimator: Box<dyn ModelEstimator>,
-    /// Losses of each unit (inner) on each fold (outer).
+    /// Loss of each unit (inner) of each fold (outer). A unit is a group or a run of samples.
     pub(super) losses: Vec<Vec<f64>>,
     /// Work spent on trials of the model, in seconds of the budget.
     pub(super) spent_s: f64,

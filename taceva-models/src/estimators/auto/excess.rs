@@ -1,4 +1,4 @@
-//! Comparison of two models by their losses on the same units.
+//! Comparison of two models by their losses on the same units, which are groups or runs of samples.
 
 /// Number of standard errors of a difference above which a model is clearly better. By chance, the best of a dozen models is two standard errors ahead of the
 /// simplest.

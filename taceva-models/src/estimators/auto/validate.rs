@@ -12,7 +12,7 @@ const GROUPS_LEAST: usize = 3;
 /// Number of runs of neighbouring samples in a fold with too few groups. Each run is one unit.
 const RUNS: usize = 10;
 
-/// Rows and independent units of each fold.
+/// Rows of each fold, and their independent units: groups or runs of neighbouring samples.
 #[derive(Debug)]
 pub(super) struct Folds {
     rows: Vec<Vec<usize>>,

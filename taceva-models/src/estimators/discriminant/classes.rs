@@ -9,8 +9,9 @@ use super::scatter::{Blocks, Scatter, means, whitening};
 
 /// Predicts the class with the nearest mean, in features whitened by the scatter within classes.
 ///
-/// With S the covariance within classes, x is assigned the class c of least (x − μ_c)ᵀ S*⁻¹ (x − μ_c), with equal prior probabilities. S* = ρ m I + (1 − ρ) S
-/// with m = tr S / p. The share ρ minimises the expected squared error of S*. S* can therefore be inverted even for few samples of many features.
+/// With S the covariance within classes, x is assigned the class c of least (x − μ_c)ᵀ S*⁻¹ (x − μ_c), with equal prior probabilities. For p
+/// features, S* = ρ m I + (1 − ρ) S with m = tr S / p. The share ρ minimises the expected squared error of S*. S* can therefore be inverted even for
+/// few samples of many features.
 ///
 /// # Reference
 /// Fisher (1936) for the discriminant. Ledoit and Wolf (2004), A well-conditioned estimator for large-dimensional covariance matrices,

@@ -116,7 +116,7 @@ impl Landmarks {
     }
 }
 
-/// Rate 1 / 2ℓ²D, the factor of squared distances in the kernel.
+/// Factor of squared distances in the kernel: 1 / 2ℓ²D, with the kernel length ℓ and the variance D summed over the features.
 pub(super) fn rate(length: f64, variance: f64) -> f64 {
     0.5 / (length * length * variance)
 }

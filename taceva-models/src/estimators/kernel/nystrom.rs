@@ -18,7 +18,7 @@ pub(super) struct Nystrom {
     pub(super) standard: Standard,
     /// Kernel length ℓ, for the model card.
     pub(super) length: f64,
-    /// Rate 1 / 2ℓ²D, the factor of squared distances in the kernel.
+    /// Factor of squared distances in the kernel: 1 / 2ℓ²D, with the variance D summed over the features.
     pub(super) rate: f64,
     /// Landmarks, standardised by `standard`.
     pub(super) rows: Vec<f32>,

@@ -6,11 +6,12 @@ use crate::training::file::tensors::{Raw, Tensors};
 
 /// Posterior distribution of the weights of each channel.
 ///
-/// Var(x) = s² ((1 − φᵀφ) + λ φᵀ(ΦᵀΦ + λ)⁻¹φ + λ (1 + 1/n)), with φ in the second term centred like Φ. The first term is the variance not explained by
-/// landmarks, the second the uncertainty of the weights. The third is the noise λs² of a label and of the mean.
+/// Var(x) = s² ((1 − φᵀφ) + λ φᵀ(ΦᵀΦ + λ)⁻¹φ + λ (1 + 1/n)). φ are the Nyström features of x. Φ has the centred Nyström features of the n training
+/// samples as rows, and φ in the second term is centred like them. The first term is the variance not explained by landmarks, the second the
+/// uncertainty of the weights. The third is the noise λs² of a label and of the mean.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Uncertainty {
-    /// Mean of the rows of Φ.
+    /// Mean Nyström features of the training samples.
     pub(super) centre: Vec<f64>,
     /// Eigenvectors of ΦᵀΦ, concatenated.
     pub(super) vectors: Vec<f64>,

@@ -10,17 +10,18 @@ use crate::training::problem::centred;
 
 /// Leave-out residuals from a fit to all samples.
 ///
-/// Let H be the hat matrix of the whole fit and e = (I − H)y its residuals. A left-out group g has the residuals (I − H_gg)⁻¹ e_g. This is exact for a penalty
-/// that does not depend on the group. I − H is computed as U diag(λ / (σ² + λ)) Uᵀ + R. U has no part along 1, and R is the part not spanned by U. This avoids
-/// the loss of digits in I − H at small λ, where I and H nearly cancel.
+/// Let H be the hat matrix of the whole fit and e = (I − H)y its residuals. A left-out group g has the residuals (I − H_gg)⁻¹ e_g. This is exact for
+/// a penalty that does not depend on the group. I − H is computed as U diag(λ / (σ² + λ)) Uᵀ + R, with the penalty λ and the eigenvalues σ² of the
+/// Gram matrix of samples. U are its eigenvectors, centred, and R is the part of the centring matrix not spanned by U. This avoids the loss of digits
+/// in I − H at small λ, where I and H nearly cancel.
 pub(super) struct LeaveOut<'s> {
     targets: &'s Mat<f64>,
     eigenvalues: &'s [f64],
-    /// Eigenvectors U.
+    /// Centred eigenvectors U of the Gram matrix.
     vectors: Mat<f64>,
     /// Targets rotated by Uᵀ.
     rotated: Mat<f64>,
-    /// True if R is 0.
+    /// True if the remainder R is 0, because U spans all centred targets.
     complete: bool,
 }
 

@@ -42,7 +42,8 @@ impl Scale {
         whole(0.5 * self.spacing_px)
     }
 
-    /// Standard deviation of a response for unit pixel noise. Computed from the squared weights of both averages, without the surroundings.
+    /// Standard deviation of the response of [`spots`] for pixel noise of standard deviation 1. Includes both averages, but not the noise of the
+    /// surroundings.
     pub(super) fn noise_gain(self) -> f32 {
         let side = (2 * self.near() + 1) as f32;
         (2.0 * side * side + 1.0) / (3.0 * side * side * side)

@@ -135,7 +135,8 @@ impl MarkerTracker {
         best.tracked()
     }
 
-    /// Candidate seeds as pairs of marker and spot, the likeliest first. These are the markers that seem to have moved least, with spots near them.
+    /// Candidate seeds: pairs of a marker and a spot near it, the closest pair first. Contains only the few markers that are closest to a spot,
+    /// relative to their spacing.
     fn beginnings(&self, found: &[[f64; 2]]) -> Vec<(usize, usize)> {
         let mut seeds: Vec<(f64, usize)> = Vec::new();
         for (own, place) in self.places.iter().enumerate() {

@@ -1,5 +1,5 @@
-//! Kernel positions that overlap the picture. The border is zero, so the result has the same bits if border positions are skipped. Tiny pictures are mostly
-//! border, so the saved work outweighs the shorter runs.
+//! Kernel positions that overlap the picture. The border is zero, so the result has the same bits if border positions are skipped. Tiny pictures are
+//! mostly border, so skipping saves more time than its shorter inner loops cost.
 
 use std::ops::Range;
 

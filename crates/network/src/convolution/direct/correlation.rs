@@ -28,7 +28,7 @@ pub(crate) enum OutputLayout {
     Packed { channels: usize },
 }
 
-/// Computes output[pixel, channel] = finish(start + Σ over taps and runs: input · weights).
+/// Computes output[pixel, channel] = finish(start + Σ input · weights), summed over the runs of all taps. `rule` contains start and finish.
 pub(crate) struct Correlation<'a> {
     /// Offsets of each pixel of a picture in input and output.
     pub(crate) pixels: &'a Pixels,
@@ -57,9 +57,9 @@ struct Round<'a> {
     is_last: bool,
 }
 
-/// True if `rows` rows of weights exceed their share of the cache, for machines with wide tiles.
+/// True if the weights of one tile of sums, with `rows` rows for each panel, exceed their share of the cache.
 ///
-/// Assumes at most four panels on every machine, so that the division of work depends only on shapes.
+/// Assumes tiles of at most four panels on every machine, so that the division of work depends only on shapes.
 pub(crate) fn are_weights_many(rows: usize, panels: usize) -> bool {
     rows * panels.min(4) * PANEL * size_of::<f32>() > WEIGHTS_AT_ONCE
 }
@@ -155,7 +155,8 @@ impl Correlation<'_> {
         tile.store(self.output, outputs, PANEL);
     }
 
-    /// Prefetches the outputs of these sums, and the end of each pixel's last run for the next sums. Both loads complete during the present summation.
+    /// Prefetches the outputs of the present tile of sums, and the end of each pixel's last run for the next tile. Both loads complete during the
+    /// present summation.
     #[inline(always)]
     fn prefetch<V: Vector, const ROWS: usize, const VECTORS: usize>(
         &self,

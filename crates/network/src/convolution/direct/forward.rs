@@ -31,7 +31,7 @@ pub(super) const ROWS: usize = 6;
 pub(crate) struct Forward {
     /// Class that contains all pixels.
     whole: Class,
-    /// Classes of pixels without the border; empty if the border is not skipped.
+    /// Classes of pixels with only the kernel positions inside the picture; empty if the border is not skipped.
     apart: Vec<Class>,
     rows: usize,
 }

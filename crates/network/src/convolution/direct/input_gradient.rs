@@ -1,5 +1,5 @@
-//! Input gradient: correlation of the output gradient with exchanged weights. There is one correlation for each class of pixels reached by the same kernel
-//! positions.
+//! Input gradient: correlation of the output gradient with the weights after inputs and outputs are exchanged. There is one correlation for each
+//! class of pixels reached by the same kernel positions.
 
 use rayon::prelude::*;
 
@@ -44,7 +44,7 @@ impl InputGradient {
         }
     }
 
-    /// Runs the pass on the first `count` pictures, with exchanged weights.
+    /// Runs the pass on the first `count` pictures. `exchanged` are the weights with inputs and outputs exchanged.
     pub(crate) fn run(
         &self,
         machine: Machine,

@@ -26,7 +26,8 @@ pub(super) struct Divided<'a> {
 }
 
 impl<'a> Divided<'a> {
-    /// Computes and writes the output. `ending` returns start values and finish of the sums for a range of output values.
+    /// Computes and writes the output. `ending` returns the start values of the sums and the operation on finished sums, for a range of output
+    /// values.
     pub(super) fn run(
         self,
         machine: Machine,

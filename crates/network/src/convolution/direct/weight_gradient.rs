@@ -19,7 +19,7 @@ const ROWS_AT_ONCE: usize = 48;
 /// Weight-gradient pass, prepared for pictures of one memory layout.
 #[derive(Clone, Debug)]
 pub(crate) struct WeightGradient {
-    /// Pixels read by each kernel position. Alternatively, one table of all pixels for each kernel row.
+    /// One table of all pixels for each kernel row. If the border is skipped, one table for each kernel position, with the pixels that read it.
     pixels: Vec<Pixels>,
     blocks: Vec<Block>,
     rows: usize,

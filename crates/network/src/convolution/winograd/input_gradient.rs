@@ -26,7 +26,7 @@ impl InputGradient {
         self.products.transformed_len()
     }
 
-    /// Runs the pass on the first `count` pictures with exchanged weights.
+    /// Runs the pass on the first `count` pictures. Inputs and outputs of the weights are exchanged.
     pub(crate) fn run(
         &self,
         machine: Machine,

@@ -1,4 +1,5 @@
-//! Products of tiles and transformed weights, which compute the forward pass and, with exchanged weights, the input gradient.
+//! Products of tiles and transformed weights, which compute the forward pass. If inputs and outputs of the weights are exchanged, they compute the
+//! input gradient.
 
 use std::ops::Range;
 
@@ -82,8 +83,8 @@ impl Products {
         transformed_len(self.input.picture.channels, self.output.picture.channels)
     }
 
-    /// Computes and writes the outputs of pictures. `ending` returns start values and finish of the sums for a range of values. `see` is called for each
-    /// picture while its output is in cache. `see` receives the item of `each` for this picture, and the output.
+    /// Computes and writes the outputs of pictures. `ending` returns the start values of the sums and the operation on finished sums, for a range of
+    /// values. `see` is called for each picture while its output is in cache. `see` receives the item of `each` for this picture, and the output.
     pub(super) fn run<'a, E: Send>(
         &self,
         machine: Machine,

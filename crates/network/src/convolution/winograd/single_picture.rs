@@ -46,7 +46,8 @@ impl Products {
 }
 
 impl<'a> Divided<'a> {
-    /// Computes and writes the output. `ending` returns start values and finish of the sums for a range of output values.
+    /// Computes and writes the output. `ending` returns the start values of the sums and the operation on finished sums, for a range of output
+    /// values.
     pub(super) fn run(
         self,
         machine: Machine,

@@ -9,7 +9,7 @@ const B: f64 = std::f64::consts::SQRT_2;
 const A2: f64 = 0.5;
 const B2: f64 = 2.0;
 
-/// Factors of kernels at ±a and ±b. At 0 the factor is 1, because a²b² = 1.
+/// Factors of kernels at the points ±a and ±b, where a² = ½ and b² = 2. At the point 0 the factor is 1, because a²b² = 1.
 const AT_A: f64 = 1.0 / (2.0 * A2 * (A2 - B2));
 const AT_B: f64 = 1.0 / (2.0 * B2 * (B2 - A2));
 
@@ -31,7 +31,7 @@ fn times_plus<V: Vector>(proof: V::Proof, vector: V, factor: f64, addend: V) -> 
     vector.times_plus(constant(proof, factor), addend)
 }
 
-/// Transforms the inputs of a tile (Bᵀd).
+/// Transforms the inputs of a tile (Bᵀd in the paper of Lavin and Gray).
 #[inline(always)]
 pub(super) fn input<V: Vector>(proof: V::Proof, d: [V; SIDE]) -> [V; SIDE] {
     let even_a = times_plus(proof, d[2], -B2, d[4]);
@@ -48,7 +48,7 @@ pub(super) fn input<V: Vector>(proof: V::Proof, d: [V; SIDE]) -> [V; SIDE] {
     ]
 }
 
-/// Transforms the sums at the points back to outputs (Aᵀm).
+/// Transforms the sums at the points back to outputs (Aᵀm in the paper of Lavin and Gray).
 #[inline(always)]
 pub(super) fn output<V: Vector>(proof: V::Proof, m: [V; SIDE]) -> [V; TILE] {
     let (even_a, odd_a) = (m[1].plus(m[2]), times_plus(proof, m[2], -1.0, m[1]));
@@ -61,7 +61,7 @@ pub(super) fn output<V: Vector>(proof: V::Proof, m: [V; SIDE]) -> [V; TILE] {
     ]
 }
 
-/// Transforms the gradient of a tile of outputs to the gradient of the sums at the points (Ay).
+/// Transforms the gradient of a tile of outputs to the gradient of the sums at the points (Ay, with A of Lavin and Gray).
 #[inline(always)]
 pub(super) fn gradient<V: Vector>(proof: V::Proof, y: [V; TILE]) -> [V; SIDE] {
     let even_a = times_plus(proof, y[2], A2, y[0]);
@@ -78,7 +78,7 @@ pub(super) fn gradient<V: Vector>(proof: V::Proof, y: [V; TILE]) -> [V; SIDE] {
     ]
 }
 
-/// Transforms a row of a kernel (Gw).
+/// Transforms a row of a kernel (Gw, with G of Lavin and Gray).
 #[inline(always)]
 pub(super) fn kernel<V: Vector>(proof: V::Proof, w: [V; 3]) -> [V; SIDE] {
     let even_a = times_plus(proof, w[2], A2 * AT_A, times(proof, w[0], AT_A));
@@ -93,7 +93,7 @@ pub(super) fn kernel<V: Vector>(proof: V::Proof, w: [V; 3]) -> [V; SIDE] {
     ]
 }
 
-/// Transforms the gradient at the points to the gradient of a row of a kernel (Gᵀu).
+/// Transforms the gradient at the points to the gradient of a row of a kernel (Gᵀu, with G of Lavin and Gray).
 #[inline(always)]
 pub(super) fn kernel_gradient<V: Vector>(proof: V::Proof, u: [V; SIDE]) -> [V; 3] {
     let (even_a, odd_a) = (u[1].plus(u[2]), times_plus(proof, u[2], -1.0, u[1]));

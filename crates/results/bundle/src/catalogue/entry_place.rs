@@ -11,7 +11,7 @@ use super::folder::{EntryFile, entry_path};
 
 /// Page names that no sensor may have.
 const RESERVED: [&str; 2] = ["index", "measured"];
-/// Maximum length of a sensor name, bytes. Tables cut longer texts after 80 letters, including the origin, level and bundle after the name.
+/// Maximum length of a sensor name, bytes. Tables cut a text after 80 letters, and append origin, level and bundle to the name.
 const MOST_NAME: usize = 40;
 /// Names that [`is_name`] accepts, for messages.
 pub(super) const NAME_RULE: &str = "expected at most 40 bytes with Latin letters or digits, no control characters, no blanks at the ends, and neither `index` nor `measured`";

@@ -19,7 +19,7 @@ use crate::manifest::{BUNDLE_SCHEMA, BundledFile, Manifest};
 use crate::organization::Organization;
 use crate::{croissant, ro_crate, yaml};
 
-/// Name of every catalogue in its forms.
+/// Name of a catalogue in its files for other programs, the same for all catalogues.
 const NAME: &str = "Catalogue of tactile sensors";
 
 /// Form of a catalogue for other programs.

@@ -35,7 +35,7 @@ pub(super) struct Submission {
     pub(super) manifest: Manifest,
     /// Text of the manifest, byte for byte.
     pub(super) text: String,
-    /// Digest of that text, as `sha256:` and digits.
+    /// Digest of the text of the manifest, as `sha256:` and digits.
     pub(super) digest: String,
     /// Rows by the name of the sensor in the results.
     pub(super) sensors: BTreeMap<String, Vec<Measured>>,
@@ -45,8 +45,8 @@ impl Submission {
     /// Verifies the bundle of `request` and reads its numbers.
     ///
     /// # Errors
-    /// [`CatalogueFolderError::Unverified`] for a bundle that differs from its files. [`CatalogueFolderError::Refused`] for a damaged bundle, a
-    /// draft, or a bundle without a sensor name.
+    /// [`CatalogueFolderError::Unverified`] for a bundle with a number that differs from the number computed from its files.
+    /// [`CatalogueFolderError::Refused`] for a damaged bundle, a draft, or a bundle without a sensor name.
     pub(super) fn read(request: &AddRequest) -> Result<Submission, CatalogueFolderError> {
         let path = request.bundle.as_path();
         let refused = |problem: String| CatalogueFolderError::refused(path, problem);

@@ -28,7 +28,8 @@ pub struct LimitCheck {
     pub n: u64,
     /// Decision by the rule of the limit, with the uncertainty of the value. `None` without a value in the unit of the limit.
     pub decision: Option<Decision>,
-    /// Effect of the guard on the limit, such as `the limit divided by 1.57`. `None` without a guard, or if the guard has the unit of the value.
+    /// Effect of the guard band on the limit, such as `the limit divided by 1.57`. `None` without a guard band, or if its width is in the unit of the
+    /// value.
     pub guard: Option<String>,
     /// Result in one word: the word of the decision, or pass or fail without a decision rule.
     pub verdict: Word,
@@ -170,7 +171,7 @@ fn decided(limit: &Limit, value: f64, interval: &LimitInterval) -> Option<Decisi
 }
 
 impl LimitCheck {
-    /// Rule of the limit in words, with the scale and the effect of its guard.
+    /// Rule of the limit in words, with the scale and the effect of its guard band.
     pub(super) fn rule(&self) -> String {
         let rule = self.limit.decided_by;
         match &self.guard {

@@ -4,7 +4,7 @@ use serde::Deserialize;
 use taceva_core::{Unit, shown};
 use taceva_metrology::conformity::{ConformityError, DecisionRule, Limits, RuleSettings};
 
-/// Version of limits files without decision rules: the value, or its whole interval, meets the limit.
+/// Version of limits files without decision rules: the value, or its whole interval, must meet the limit.
 const BY_VALUE: u32 = 1;
 /// Version of limits files with decision rules.
 pub(super) const BY_RULES: u32 = 2;
@@ -48,13 +48,13 @@ pub struct Limit {
     pub whole_interval: bool,
     /// Name of the rule for this limit, since version 2.
     rule: Option<String>,
-    /// Factor of the guard, for `guarded`.
+    /// Width of the guard band as a multiple of the expanded uncertainty, for `guarded`.
     r: Option<f64>,
     /// Least probability of conformity, for `probability`.
     p_conformity: Option<f64>,
     /// Greatest expanded uncertainty in the unit of the score, for `shared`.
     most_uncertainty: Option<f64>,
-    /// Coverage of the expanded uncertainty.
+    /// Coverage probability of the expanded uncertainty, 0 to 1.
     coverage: Option<f64>,
     /// Decision rule, from the settings of this limit and of the file.
     #[serde(skip, default = "simple")]
@@ -206,8 +206,8 @@ impl Limit {
         }
     }
 
-    /// Sets the rule from the settings of the limit and the defaults of the file. A limit whose rule differs from the rule of the file inherits only the
-    /// coverage.
+    /// Sets the rule from the settings of the limit and the defaults of the file. A limit whose rule differs from the rule of the file inherits only
+    /// the coverage probability.
     fn decide_by(&mut self, common: &RuleSettings) -> Result<(), String> {
         if self.whole_interval {
             return Err(format!(

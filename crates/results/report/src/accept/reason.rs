@@ -68,10 +68,11 @@ pub(super) fn acceptance(decision: &Decision) -> Option<String> {
     Some(bounds(limits.least(), limits.most()))
 }
 
-/// Scale of a guard, between the rule and the effect of the guard.
+/// Text between a decision rule and the effect of its guard band: the scale of the band.
 pub(super) const ON_SCALE: &str = ", on the logarithmic scale of the interval: ";
 
-/// Effect of a guard on the limits, such as `the limit divided by 1.57`. `None` without a guard, or if the guard has the unit of the value.
+/// Effect of a guard band on the limits, such as `the limit divided by 1.57`. `None` without a guard band, or if its width is in the unit of the
+/// value.
 pub(super) fn guard(decision: &Decision, interval: &LimitInterval) -> Option<String> {
     let measured = interval.measured.as_ref().ok()?;
     let quantity = measured.guarded_quantity()?;

@@ -93,7 +93,7 @@ impl Acceptance<'_> {
         table
     }
 
-    /// Table for programs, without notes. The last column has the rule of each limit if rules decide on the limits.
+    /// Table for programs. The last column has the rule of each limit if rules decide on the limits.
     pub fn numbers(&self) -> Table {
         let mut table = self.table();
         if self.limits.is_by_rules() {

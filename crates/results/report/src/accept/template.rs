@@ -1,4 +1,4 @@
-//! Initial limits file. The result meets each limit, and a comment states the value of the result.
+//! Initial limits file for a result. The result meets each limit, and a comment at each limit states the value of the score.
 
 use taceva_metrics::{Better, Range};
 use taceva_metrology::conformity::{DecisionRule, Limits, decide};
@@ -11,7 +11,7 @@ use crate::results::Study;
 use crate::scores::ScoreTable;
 use taceva_results::{Score, full_name, not_measured};
 
-/// Distance of a limit from the result, as a share of the value.
+/// Distance of a limit from the value of the score, as a share of the value.
 const MARGIN: f64 = 0.2;
 /// Number of significant digits of a limit. More digits would suggest a higher accuracy.
 const DIGITS: i32 = 3;
@@ -34,9 +34,9 @@ r = 1.0
 coverage = 0.95
 "#;
 
-/// Limits file for [`super::LimitsFile::read`] with limits that `study` meets. Each score with a better direction gets one limit. The limit is a fifth worse
-/// than the value, or at the worse end of its interval if that is farther away. The rule is `guarded`, or `simple` if the interval is missing or leaves no room
-/// for a guard band.
+/// Limits file for [`super::LimitsFile::read`] with limits that `study` meets. Each headline score that takes part in verdicts and has a better
+/// direction gets one limit. The limit is a fifth worse than the value, or at the worse end of its interval if that is farther away. For R² and
+/// skill, 1 − value is a fifth larger at the limit. The rule is `guarded`, or `simple` if the interval is missing or leaves no room for a guard band.
 ///
 /// ```
 /// use taceva_report::{LimitsFile, Study, accept, limits_template};
@@ -182,7 +182,7 @@ impl Bounds {
     }
 }
 
-/// True for scores of at most 1, such as R² and skill.
+/// True for scores of metrics that cannot exceed 1, such as R² and skill.
 fn is_below_one(score: &Score) -> bool {
     let metric = taceva_metrics::catalogue::find(&score.metric);
     metric.is_some_and(|metric| metric.range == Range::BelowOne)

@@ -80,7 +80,7 @@ impl BudgetTemplate<'_> {
         out + &remarks
     }
 
-    /// Measured figure of the file that includes the measured `figure`; `None` if no figure does.
+    /// Other measured figure whose uncertainty includes the uncertainty of the measured `figure`; `None` without such a figure.
     fn holder(&self, figure: &str) -> Option<&'static str> {
         let is_measured = |figure: &str| self.evidence.figure(figure).is_some();
         let outer: &[BudgetSource] = match figure {

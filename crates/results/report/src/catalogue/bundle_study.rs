@@ -33,7 +33,7 @@ impl Sensor {
         studies.filter_map(|rows| study(&self.name, rows)).collect()
     }
 
-    /// One sensor for each measured bundle, with the facts of this sensor and the numbers of the bundle instead of published numbers.
+    /// One sensor for each study of each measured bundle, with the facts of this sensor and the numbers of the study instead of published numbers.
     pub fn measured_candidates(&self) -> Vec<Sensor> {
         let studies = self.measured_studies(Origin::Measured).into_iter();
         let candidates = studies.map(|study| Sensor {

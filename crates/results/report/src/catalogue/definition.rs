@@ -63,7 +63,7 @@ pub(super) fn may_be_unstated(metric: &str) -> bool {
     metric == "intrinsic"
 }
 
-/// True if results of this program have scores with that name.
+/// True if results of this program have scores of `metric`.
 pub(super) fn is_ours(metric: &str) -> bool {
     taceva_metrics::catalogue::find(metric).is_some()
 }

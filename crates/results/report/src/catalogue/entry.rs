@@ -59,7 +59,7 @@ pub struct Sensor {
     /// Numbers of bundles whose samples are simulated or synthetic.
     #[serde(default)]
     pub simulated: Vec<Measured>,
-    /// Digest of the samples behind the results of a measured candidate; `None` for published numbers.
+    /// Digest of the samples behind `results`, if these are numbers of a bundle or of a result; `None` for published numbers.
     #[serde(skip)]
     pub samples: Option<String>,
     /// Prediction errors on pictures or signals with faults; `None` if no fault was tested.
@@ -145,7 +145,8 @@ impl Sensor {
         Sensor::slug_of(&self.name)
     }
 
-    /// Name for files and links of a sensor called `name`. Replaces each character other than lower-case ASCII letters and digits by `-`.
+    /// Name for files and links of a sensor called `name`. Converts ASCII letters to lower case, and replaces each character other than ASCII letters
+    /// and digits by `-`.
     pub fn slug_of(name: &str) -> String {
         let letters = name.chars().map(|letter| {
             if letter.is_ascii_alphanumeric() {

@@ -135,7 +135,7 @@ fn evidence(studies: &[Study], needs: &[Need], choice: &Choice) -> Vec<Evidence>
     comparison.answers.iter().filter_map(of_answer).collect()
 }
 
-/// Position of the significantly better study by the needed property, for a score without a better direction.
+/// Position of the significantly better study for a score without a better direction. The direction of `property` decides.
 fn by_need(answer: &Answer, property: Property) -> Option<usize> {
     let describes = answer.direction == Better::Described;
     let difference = answer.difference.as_ref();
@@ -156,8 +156,8 @@ fn spread(studies: &[Study], names: &[String], choice: &Choice) -> Option<String
 }
 
 impl Choice {
-    /// Sentences on tests: the best sensor against each other sensor, then other significant differences. Empty if nothing was tested, for example with
-    /// published numbers.
+    /// Sentences on tests: the best sensor against each other sensor, then other significant differences. Empty for a choice without tests, or if no
+    /// need ranks the sensors.
     pub(super) fn tested(&self) -> Vec<String> {
         let Some(best) = self.ranked.first().filter(|_| self.evidence.is_some()) else {
             return Vec::new();

@@ -24,7 +24,7 @@ pub enum NeedError {
         /// Example of the need with a valid number.
         example: String,
     },
-    /// A strict sign, `<` or `>`, which excludes its number.
+    /// A strict sign, `<` or `>`, which would exclude the bound itself.
     #[error("`{words}`: a bound includes its number; write `{instead}`")]
     Strict {
         /// Need as written.
@@ -37,7 +37,7 @@ pub enum NeedError {
         "`{0}`: prices are not ranked; bound the price of a ready sensor, such as `price <= 500 USD`"
     )]
     Price(String),
-    /// Robustness to a fault, which has a word of its own.
+    /// Word for robustness to a fault, such as `dust`, instead of the accepted word `rugged`.
     #[error(
         "`{0}`: expected `rugged`, which ranks results by their errors under tested faults such as dust and wear (`taceva stress`)"
     )]

@@ -17,8 +17,8 @@ pub(super) fn barred(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     barred.next()
 }
 
-/// True if the number of `sensor` is known and does not meet `bound`, or if no possible value of an inexact number meets `bound`. A greatest tested
-/// depth or force need not be a limit.
+/// True if the number of `sensor` is known and does not meet `bound`, or if no possible value of an inexact number meets `bound`. Always false for a
+/// known greatest depth or force, because the sensor may withstand more than the greatest tested value.
 pub(super) fn is_unmet(sensor: &Sensor, bound: &Bound) -> bool {
     match bound.property.of(sensor) {
         Some(value) => !bound.property.is_reached() && !bound.holds(value),

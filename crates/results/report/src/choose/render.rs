@@ -145,7 +145,7 @@ impl Choice {
         steps.any(|step| !step.is_bound)
     }
 
-    /// Notes on the measured parts and the goods behind sizes and prices of ranked sensors.
+    /// Notes on the numbers of the sensors: tested depths and forces of published errors, variants, measured parts of sizes, and goods of prices.
     fn note_parts(&self, table: &mut Table) {
         let all = || self.ranked.iter().chain(&self.others);
         let is_error = |step: &Step| matches!(step.property, Property::Error(_));

@@ -70,7 +70,7 @@ impl CalibrationCurve {
         Ok(figures)
     }
 
-    /// Relative errors at each force. The remark of an error names the row of limits that the errors at the force meet.
+    /// Relative errors at each force. The remark of an error states which row of limits similar to those of ISO 376 the errors at this force meet.
     fn of_proving(&self, found: &ProvingFigures) -> Vec<CurveFigure> {
         let mut figures = Vec::new();
         for (at, level) in found.levels.iter().enumerate() {
@@ -169,7 +169,7 @@ impl CalibrationCurve {
         }
     }
 
-    /// Appends a warning to `remark` if no row is near the reference value `x`.
+    /// Appends a warning to `remark` if `x` is outside the range of the reference values.
     fn within(&self, x: f64, remark: String) -> String {
         let [low, high] = self.fit.range();
         // The ends themselves are rounded.

@@ -23,8 +23,8 @@ const MOST_GROWN: f64 = 1.3;
 pub struct FigureStyle {
     /// Width of each figure, in mm.
     pub width_mm: Option<f64>,
-    /// Size of most letters, in points (1/72 in); 8 if only a width is set. Letters are larger in drawings narrower than the page. Letters are smaller in
-    /// drawings more than 1.3 times too wide.
+    /// Size of most letters, in points (1/72 in); 8 if only a width is set. If a drawing is enlarged to `width_mm`, its letters become larger. If it
+    /// is reduced by more than a factor of 1.3, they become smaller.
     pub letters_pt: Option<f64>,
     /// Preferred font family of SVG. PDF embeds Arimo, which has the widths of Arial and Helvetica.
     pub font: Option<String>,

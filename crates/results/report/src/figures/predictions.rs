@@ -67,7 +67,7 @@ fn one(study: &Study, at: usize, name: &str, room: Option<f64>) -> Option<Figure
     })
 }
 
-/// The six channels, if present; otherwise the first nine channels.
+/// Channels of the sample table: those of the six, then others, at most nine.
 fn channels(samples: &Samples) -> Vec<SampleChannel<'_>> {
     let six: Vec<SampleChannel<'_>> = SIX
         .into_iter()

@@ -63,7 +63,7 @@ fn one(studies: &[Study], over: &str, room: Option<f64>) -> Option<Figure> {
     overlay(&sheets, studies, 3, words, room)
 }
 
-/// Rolling mean over non-empty bins, weighted by samples, with the spread of the averaged bins.
+/// Rolling mean over non-empty bins, each with equal weight, with the standard deviation of the averaged bins as the band.
 pub(super) fn rolling(curve: &Curve) -> Vec<Level> {
     let bins: Vec<(f64, f64, u64)> = curve
         .x

@@ -98,7 +98,8 @@ fn skill_end(fault: &FaultScores, result: &FaultResult) -> String {
     ends.collect::<Vec<_>>().join(", ")
 }
 
-/// Main channels with a shown difference from the error that the fault adds to the reference model; empty if there is none.
+/// Main channels to which the fault adds significantly less or more error than to the same channels of the reference model; empty without such
+/// channels.
 fn verdicts(fault: &FaultScores, result: &FaultResult) -> String {
     let sides = [("less", true), ("more", false)].into_iter();
     let words = sides.map(|(side, is_less)| {

@@ -20,7 +20,7 @@ use taceva_results::Interval;
 /// Citation of the study that defined the metrics, as its publisher prints it.
 const STUDY: &str = "@article{taceva-study,\n  author  = {Cong, Qingzheng and Oh, Steven and Fan, Wen and Luo, Shan and Althoefer, Kaspar and Zhang, Dandan},\n  title   = {{TacEva}: A Performance Evaluation Framework for Vision-Based Tactile Sensors},\n  journal = {Advanced Intelligent Systems},\n  year    = {2026},\n  doi     = {10.1002/aisy.202501179}\n}";
 
-/// Paragraph and BibTeX entries, each with a copy button, and a table of the sensors.
+/// Paragraph and BibTeX entries, each with a copy button, and tables of the sensors and of their devices.
 pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
     let paragraph = html! { p id="methods-text" { (paragraph(studies, table)) } };
     let entries = html! { pre id="bibtex-text" tabindex="0" { (bibtex(studies)) } };

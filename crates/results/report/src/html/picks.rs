@@ -75,7 +75,7 @@ fn place(samples: &Samples, row: usize) -> Option<&str> {
         .or_else(|| samples.word(Samples::KEY, row))
 }
 
-/// First row of each place among `rows` that `taken` lacks, at most `most`. Adds the places to `taken`.
+/// First row in `rows` of each place that is not yet in `taken`, at most `most` rows. Adds the places to `taken`.
 fn apart<'a>(
     samples: &'a Samples,
     rows: impl Iterator<Item = &'a (usize, f64)>,

@@ -27,7 +27,7 @@ pub struct Picture {
     pub bytes: Vec<u8>,
 }
 
-/// Number of samples, with a card for each.
+/// Number of selected samples, and their section with one card each; `None` without samples.
 pub(super) fn section(report: &ReportPage<'_>) -> Option<(usize, Markup)> {
     let pictures: BTreeMap<(usize, &str), &Picture> = report
         .pictures

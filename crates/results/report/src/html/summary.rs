@@ -20,7 +20,7 @@ pub(crate) fn lead(studies: &[Study]) -> Markup {
     html! { p.lead { (listed(&names(studies))) } (badge(studies)) }
 }
 
-/// Badge for simulated samples; empty if all samples were measured.
+/// Badge for samples that were not measured; empty if all samples were measured.
 pub(crate) fn badge(studies: &[Study]) -> Markup {
     let words = not_measured(studies.iter().map(|study| study.source.as_str()));
     html! {

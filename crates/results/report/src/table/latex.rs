@@ -82,7 +82,7 @@ impl Table {
         out + &format!("\\end{{{float}}}\n")
     }
 
-    /// Rows in an environment of this width, with numbers in the font `size` and heads in `small`.
+    /// Rows in an environment of the width `width`, with numbers in the font size `size` and heads in `small`.
     fn stretched(&self, width: &str, size: &str, small: &str) -> String {
         let sides = self.sides();
         format!(

@@ -4,7 +4,7 @@ use taceva_metrics::{ClusterSum, ClusterSums, Difference, Sides, SignFlip};
 
 use super::Subject;
 
-/// 2⁴⁰: parts of clusters are rounded to about 1/2⁴⁰ of the greatest number.
+/// 2⁴⁰. The part of each cluster in a score is rounded to a multiple of about 1/2⁴⁰ of [`Parts::greatest`].
 const FINE: f64 = 1_099_511_627_776.0;
 
 /// Tests the difference of two scores by the signs of the clusters, or returns the reason why this is impossible.
@@ -48,7 +48,7 @@ pub(super) fn difference(subjects: Sides<Subject<'_>>, seed: u64) -> Result<Diff
 /// Parts of the clusters in a score.
 struct Parts {
     clusters: Vec<Part>,
-    /// Greatest magnitude of the terms n s and n′ s′.
+    /// Greatest magnitude of the number of samples times a score: the score of all samples, and the score without each cluster.
     greatest: f64,
 }
 

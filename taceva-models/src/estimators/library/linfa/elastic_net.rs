@@ -60,7 +60,8 @@ const STRENGTHS: [f64; 11] = [
 const SWEEPS: u32 = 1000;
 const TOLERANCE: f64 = 1e-4;
 
-/// Multi-task elastic net: minimises ½n⁻¹ ‖Y − XW‖² + λ (α Σ‖wⱼ‖₂ + ½(1 − α)‖W‖²). wⱼ contains the weights of feature j for every target.
+/// Multi-task elastic net: minimises ½n⁻¹ ‖Y − XW‖² + λ (α Σ‖wⱼ‖₂ + ½(1 − α)‖W‖²). X contains the features of n samples, Y their labels and W the
+/// weights; wⱼ are the weights of feature j for every target. α is the setting `mix`.
 ///
 /// λ is the strength × the least λ at which every weight is 0. All targets are fitted together, once per strength. For each target, the weights of its chosen
 /// strength are used.

@@ -33,8 +33,8 @@ const STRENGTH: Number = Number {
 /// Candidate strengths, ascending.
 const STRENGTHS: [f64; 5] = [1e-1, 1.0, 1e1, 1e2, 1e3];
 
-/// Multinomial logistic regression with a penalty on squared weights, each target separately. Predicts one of the channel's training values. Suitable for
-/// boards, kinds, spacings and levels.
+/// Multinomial logistic regression with a penalty on squared weights, each target separately. Predicts one of the channel's training values. Suitable
+/// for channels with few distinct labels, such as grating spacings.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(

@@ -37,7 +37,8 @@ const NOTHING: f64 = 100.0 * f64::EPSILON;
 
 /// Support vector regression by sequential minimal optimisation, each target separately.
 ///
-/// The kernel is exp(−‖x − v‖² / (2 ℓ² d²)). d² is the mean squared distance of training samples from their mean.
+/// The kernel of two samples x and v is exp(−‖x − v‖² / (2 ℓ² d²)). ℓ is the setting `length`, and d² the mean squared distance of training samples
+/// from their mean.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(

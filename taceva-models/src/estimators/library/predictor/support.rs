@@ -7,7 +7,8 @@ use crate::estimators::library::guard::finite;
 use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensors};
 use crate::training::file::tensors::Raw;
 
-/// Predicts Σ coefficient · exp(−rate ‖x − v‖²) + bias for each target. The sum includes training samples with a nonzero coefficient in any target.
+/// Predicts Σ coefficient · exp(−rate ‖x − v‖²) + bias for the features x of a sample and each target. The sum is over training samples v with a
+/// nonzero coefficient in any target.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Support {
     rate: f64,

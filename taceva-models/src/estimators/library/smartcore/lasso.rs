@@ -37,7 +37,7 @@ const STRENGTHS: [f64; 4] = [1e-2, 3e-2, 1e-1, 3e-1];
 const STEPS: usize = 50;
 const TOLERANCE: f64 = 1e-2;
 
-/// Lasso by an interior-point method, each target separately: minimises ‖y − Xw‖² + λ ‖w‖₁.
+/// Lasso by an interior-point method, each target separately: minimises ‖y − Xw‖² + λ ‖w‖₁ for labels y, features X and weights w.
 ///
 /// λ is the strength × the least λ at which every weight is 0. The library rejects fewer samples than features. In that case, samples with zero features and
 /// zero labels are appended, which do not change any sum.

@@ -14,11 +14,11 @@ use crate::training::choice::Errors;
 
 /// Precomputed terms of one group, which do not depend on the penalty.
 struct Group {
-    /// Rows of U that belong to the group.
+    /// Rows of the eigenvectors U of [`LeaveOut`] that belong to the group.
     vectors: Mat<f64>,
-    /// Diagonal block of R that belongs to the group.
+    /// Diagonal block of the remainder R of [`LeaveOut`] that belongs to the group.
     unspanned: Mat<f64>,
-    /// Rows of the product of R and the targets that belong to the group.
+    /// Rows of the product of the remainder R and the targets that belong to the group.
     residuals: Mat<f64>,
 }
 

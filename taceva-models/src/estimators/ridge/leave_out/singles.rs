@@ -12,7 +12,7 @@ use crate::training::choice::Errors;
 /// Number of samples per block.
 const BLOCK: usize = 256;
 
-/// Factors λ / (σ² + λ) for every penalty, and their products with the rotated targets.
+/// Factors λ / (σ² + λ) for every eigenvalue σ² and penalty λ, and their products with the rotated targets.
 struct Shrunk {
     shrinkage: Mat<f64>,
     /// Products, with one column per penalty and channel. Channels of one penalty are adjacent.

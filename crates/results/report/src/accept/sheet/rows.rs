@@ -130,7 +130,7 @@ impl Acceptance<'_> {
         notes
     }
 
-    /// Remarks on limits without a variant that apply to the variant that verdicts use, one for each metric.
+    /// Remarks on limits that name no variant and therefore apply to the variant that verdicts use, one for each metric.
     pub(super) fn variant_notes(&self) -> Vec<String> {
         let notes = self.findings.iter().filter_map(|check| {
             let Limit {
@@ -167,7 +167,7 @@ fn name_of(check: &LimitCheck) -> String {
     format!("{} {}", check.limit.metric, check.limit.channel)
 }
 
-/// Scale and effect of the guards of limits with one rule; empty if no guard has a logarithmic scale.
+/// Scale and effect of the guard bands of limits with one rule; empty if no guard band has a logarithmic scale.
 fn guards_of(checks: &[&LimitCheck]) -> String {
     let guards = checks.iter().filter_map(|check| {
         let guard = check.guard.as_ref()?;

@@ -166,7 +166,7 @@ impl Painter {
     }
 }
 
-/// Name of the graphics state for `hundredths` percent opacity.
+/// Name of the graphics state for an opacity of `hundredths` percent.
 pub(super) fn state_name(hundredths: u8) -> String {
     format!("G{hundredths}")
 }
