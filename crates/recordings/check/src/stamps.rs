@@ -58,7 +58,7 @@ impl Stream {
         (forward.len() >= LEAST && usual_s <= STREAM_S).then_some(Stream { steps, usual_s })
     }
 
-    /// Sequences of adjacent steps.
+    /// Sequences of steps in which each step begins at the end of the previous step.
     pub(super) fn runs(&self) -> Vec<Vec<Step>> {
         let mut runs: Vec<Vec<Step>> = Vec::new();
         let mut ends: BTreeMap<usize, usize> = BTreeMap::new();

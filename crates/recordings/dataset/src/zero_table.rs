@@ -93,7 +93,7 @@ pub fn press_zeros(recording: &Path) -> Vec<PressZero> {
 struct ZeroChanges {
     /// Greatest change of a component during a press, N.
     step_n: f64,
-    /// Greatest range of a component between the presses, N.
+    /// Greatest range of a component of the zeros before the presses, N.
     range_n: f64,
     /// Number of presses that were repeated because the zero changed too far.
     discarded: usize,

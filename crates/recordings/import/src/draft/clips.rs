@@ -49,7 +49,7 @@ pub(super) struct BareClip<'g> {
     pub(super) path: &'g str,
     pub(super) frames: u64,
     pub(super) is_gray: bool,
-    /// True if tables beside the clip were not examined.
+    /// True if the draft is for this clip alone. Tables beside the clip were then not examined.
     pub(super) is_asked: bool,
     /// Paths of the other clips.
     pub(super) others: Vec<&'g str>,

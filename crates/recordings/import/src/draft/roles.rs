@@ -40,8 +40,8 @@ pub(super) enum Role {
     Other,
 }
 
-/// Minimum number of rows that count up by one in a column that is a counter and not a force. A larger minimum applies to a column with the name of
-/// the channel.
+/// Minimum number of rows that count up by one in a column that is taken for a counter. `COUNTED_BY_NAME` is the minimum for a column with the name
+/// of a channel.
 const COUNTED: usize = 4;
 const COUNTED_BY_NAME: usize = 16;
 
