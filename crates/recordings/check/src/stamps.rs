@@ -86,7 +86,7 @@ impl Stream {
     }
 }
 
-/// True for a recording of single presses with one picture each.
+/// True for a recording that was made press by press, and not as a stream of frames.
 pub(super) fn is_of_presses(evidence: &Evidence<'_>) -> bool {
     let header = evidence.header;
     header.stream.is_none() && header.presses.values().any(|count| *count > 0)

@@ -81,7 +81,8 @@ pub fn add_press_zero(recording: &Path, zero: &PressZero) -> io::Result<()> {
     table.flush()
 }
 
-/// Rows of the table beside the recording at `recording`; empty without a table. A last row that was truncated by a crash is skipped.
+/// Rows of the table beside the recording at `recording`; empty without a table. A row that cannot be parsed is skipped, such as a row that a crash
+/// truncated.
 #[doc(hidden)]
 pub fn press_zeros(recording: &Path) -> Vec<PressZero> {
     let table = csv::Reader::from_path(place(recording));

@@ -180,7 +180,7 @@ fn alike(streams: BTreeMap<(Option<&str>, Option<&str>), Vec<Instant>>) -> Vec<V
 }
 
 impl Lag {
-    /// Common lag of all streams; `None` if there is no stream.
+    /// Common lag of all streams; `None` for too few samples, or if the steps are too long for a stream.
     fn of(streams: &[Vec<Instant>]) -> Option<Lag> {
         let pairs = streams.iter().flat_map(|stream| stream.windows(2));
         let mut steps: Vec<f64> = pairs.map(|pair| pair[1].0 - pair[0].0).collect();

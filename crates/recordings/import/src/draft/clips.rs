@@ -85,7 +85,7 @@ pub(super) fn bare<'g>(
     })
 }
 
-/// Frame lines for the clips among `groups` that have a frame for each row of `main`.
+/// Frame lines for the clips beside `main`. A line has a gap if a clip has more or fewer frames than `main` has rows.
 pub(super) fn of(
     folder: &SourceFolder,
     groups: &[FileGroup],

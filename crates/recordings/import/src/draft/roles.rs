@@ -194,7 +194,7 @@ fn several(named: &Named, width: usize) -> Role {
     }
 }
 
-/// Number of numbers in each cell; `None` if cells differ.
+/// Number of numbers in each cell, at least 2; `None` for cells of different lengths, or without lists of numbers.
 fn width(cells: &[&str]) -> Option<usize> {
     let count = |cell: &str| {
         let is_number = |at: usize| {
