@@ -12,12 +12,12 @@ use crate::temporary_folder::{FORMER, TemporaryFolder, clear, folders, is_living
 
 /// Name prefix of every staging folder.
 pub const STAGED: &str = ".taceva-staged-";
-/// Maximum number of waits for another process that is between its two renames.
+/// Maximum number of waits for another process that has moved the old version away and has not yet moved the new version into place.
 const WAITS: u32 = 2_000;
 const PAUSE: Duration = Duration::from_millis(1);
 /// Resolution of modification times, with a margin. Changes that are further apart than this resolution have different times.
 const CLOCK: Duration = Duration::from_secs(2);
-/// Number of attempts to stage a target that another process stages, and the base pause between the attempts.
+/// Number of attempts to stage a target that another process stages. `CLAIM_PAUSE` is the base pause between the attempts.
 const CLAIMS: u32 = 6;
 const CLAIM_PAUSE: Duration = Duration::from_millis(3);
 
@@ -199,7 +199,8 @@ fn refuse_devices(target: &Path) -> io::Result<()> {
     }
 }
 
-/// Restores `target` if a process was killed between its two renames, and removes leftovers. Waits for a process that is still running.
+/// Restores the old version of `target` if a process was killed after it moved this version away, and removes leftovers. Waits for a process that is
+/// still running.
 ///
 /// # Errors
 /// [`io::Error`] if the old version of `target` exists and cannot be restored.
@@ -262,7 +263,7 @@ fn clear_changed(parent: &Path) {
     }
 }
 
-/// Path of the old version of `target` between the two renames.
+/// Path to which a process moved the old version of `target`, before it moves the new version into place.
 fn former_of(target: &Path) -> Option<PathBuf> {
     let mut name = std::ffi::OsString::from(FORMER);
     name.push(target.file_name()?);

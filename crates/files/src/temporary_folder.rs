@@ -10,14 +10,14 @@ use crate::durable::{parent_of, sync_folder};
 
 /// Marker file in the temporary folders of this crate, locked while the process that created the folder runs.
 pub(crate) const MARKER: &str = ".taceva-temporary";
-/// Name prefix of the old version of a target, which is kept in a temporary folder between the two renames.
+/// Name prefix of the old version of a target, which is kept in a temporary folder until the new version is in place.
 pub(crate) const FORMER: &str = "replaced-";
 /// Maximum number of attempts to create a folder, if another process removes it before it is locked.
 const CREATIONS: u32 = 16;
 /// Number of random letters and digits after the prefix of a name.
 const RANDOM: usize = 6;
 
-/// Temporary folders of this process that are removed at exit, because their content is not being published.
+/// Temporary folders of this process that are removed at exit. Folders whose content is being published are not in this set.
 static OWN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
 /// Removes the temporary folders of this process, for a program that exits while other threads still work.

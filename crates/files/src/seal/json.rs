@@ -144,7 +144,7 @@ impl Parsed {
         })
     }
 
-    /// Digests of the values by key, with names encoded as in a line of keys.
+    /// Digests of the values by key. Separators in names are percent-encoded.
     fn keys(&self) -> Keys {
         let mut keys = keys::of(&self.rest);
         keys.extend(self.attached.clone());
@@ -152,7 +152,7 @@ impl Parsed {
     }
 }
 
-/// Digest and line of keys that the seal contains.
+/// Parts of a seal: the digest of the content, and the digests of the values by key, encoded as one line.
 fn seal_of(seal: Canonical) -> Result<(String, String), SealError> {
     let unreadable = |problem: &str| SealError::Unreadable {
         problem: problem.to_owned(),

@@ -38,7 +38,7 @@ pub(crate) struct Rosbag2 {
     channels: BTreeMap<u32, Channel>,
 }
 
-/// Positions of the columns of a message, in the order of requests.
+/// Positions of the columns of a message in the table `messages`.
 #[derive(Clone, Copy, Debug)]
 struct Columns {
     topic: usize,

@@ -164,7 +164,7 @@ fn copy(window: &mut Vec<u8>, from: usize, length: usize, left: usize) -> io::Re
     Ok(())
 }
 
-/// Element at `at`, and the offset after its length and offset bytes; `None` if `packed` ends before.
+/// Element at `at`, and the offset after its length and offset bytes; `None` if `packed` ends within these bytes.
 fn element(packed: &[u8], at: usize) -> Option<(Element, usize)> {
     let tag = *packed.get(at)?;
     let high = usize::from(tag >> 2);

@@ -152,7 +152,7 @@ impl Database {
         &self.tables
     }
 
-    /// Calls `each` with the number and the location of every row of `table`.
+    /// Calls `each` with the location and the record of every row of `table`.
     pub(crate) fn each_row(
         &self,
         table: &SqliteTable,

@@ -13,7 +13,7 @@ pub struct DepthFacts {
     pub task: String,
     /// Problem with the unit of the depths, in words; `None` if the unit is a length.
     pub unit_problem: Option<String>,
-    /// Statistics of each map, by row.
+    /// Statistics of each map, by row; empty if the unit is not a length.
     pub maps: Vec<OneMap>,
 }
 
@@ -35,7 +35,7 @@ pub struct OneMap {
 }
 
 impl DepthFacts {
-    /// Statistics for each task with depth maps. Reads every map of `dataset`.
+    /// Statistics for each task with depth maps. Reads every map whose task states a unit of length.
     ///
     /// # Errors
     /// [`DatasetError`] if a map is damaged or the run is cancelled.

@@ -120,7 +120,7 @@ impl FrameFacts {
         }
     }
 
-    /// The same without tiles, which take most of the time.
+    /// Statistics of `frame` without tiles, which would take most of the time. Compares with the frame without contact.
     pub fn without_tiles(frame: &Frame, reference: Option<&Frame>) -> FrameFacts {
         let format = frame.info().format;
         match format.bytes_per_sample() {

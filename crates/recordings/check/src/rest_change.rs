@@ -47,17 +47,17 @@ impl RestChange {
     }
 }
 
-/// Median, the lower of two; 0 for no numbers.
+/// Median; of two middle numbers, the lower. 0 for no numbers.
 pub(crate) fn lower_median(numbers: impl Iterator<Item = f64>) -> f64 {
     in_order(numbers, |count| count.saturating_sub(1) / 2)
 }
 
-/// Median, the upper of two; 0 for no numbers.
+/// Median; of two middle numbers, the upper. 0 for no numbers.
 fn median(numbers: impl Iterator<Item = f64>) -> f64 {
     in_order(numbers, |count| count / 2)
 }
 
-/// Number at a position in ascending order, computed from the count; 0 for no numbers.
+/// Number at the index `position(count)` in ascending order; 0 for no numbers.
 fn in_order(numbers: impl Iterator<Item = f64>, position: fn(usize) -> usize) -> f64 {
     let mut sorted: Vec<f64> = numbers.collect();
     sorted.sort_by(f64::total_cmp);

@@ -67,7 +67,7 @@ pub struct TaxelFacts {
 }
 
 impl SignalFacts {
-    /// Statistics of no sample of `dataset`; `None` without signals.
+    /// Statistics of the taxels of `dataset` before the first sample is added; `None` without signals.
     ///
     /// # Errors
     /// [`EvaluateError`] if the signals without contact cannot be read.

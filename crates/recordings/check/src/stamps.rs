@@ -58,7 +58,7 @@ impl Stream {
         (forward.len() >= LEAST && usual_s <= STREAM_S).then_some(Stream { steps, usual_s })
     }
 
-    /// Sequences of adjacent steps.
+    /// Sequences of steps in which each step begins at the end of the previous step.
     pub(super) fn runs(&self) -> Vec<Vec<Step>> {
         let mut runs: Vec<Vec<Step>> = Vec::new();
         let mut ends: BTreeMap<usize, usize> = BTreeMap::new();
@@ -86,7 +86,7 @@ impl Stream {
     }
 }
 
-/// True for a recording of single presses with one picture each.
+/// True for a recording that was made press by press, and not as a stream of frames.
 pub(super) fn is_of_presses(evidence: &Evidence<'_>) -> bool {
     let header = evidence.header;
     header.stream.is_none() && header.presses.values().any(|count| *count > 0)

@@ -5,17 +5,17 @@ use crate::tiles::Tiles;
 
 /// Fraction of the greatest load up to which a picture may show an untouched gel.
 const LOW: f64 = 0.1;
-/// Maximum number of candidate centres of the densest group, and of pictures compared with each candidate.
+/// Maximum number of pictures that are tried as the centre of the densest group of similar pictures. Each is compared with at most `BESIDE` pictures.
 const CANDIDATES: usize = 200;
 const BESIDE: usize = 1000;
-/// Minimum number of pictures in the group. `SHARE` is their minimum frequency.
+/// Minimum number of similar pictures that form a group. At least one picture in `SHARE` must belong to the group.
 const LEAST: usize = 8;
 const SHARE: usize = 20;
-/// Radius of the group, in core radii.
+/// Radius of the group of similar pictures, as a multiple of the radius of its densest part.
 const REACH: f64 = 2.5;
-/// Maximum fraction of all pictures in the group. In a larger group, pictures do not depend on contact.
+/// Maximum fraction of all pictures in the group of similar pictures. In a larger group, pictures do not depend on contact.
 const MOST: f64 = 0.75;
-/// Minimum number of separate visits to the group. A single held contact is not rest.
+/// Minimum number of separate runs of pictures in the group of similar pictures. A single held contact is not rest.
 const VISITS: usize = 4;
 
 /// Rows of the densest group of similar pictures, whose centre is a picture with a low load; empty without such a group.

@@ -51,7 +51,7 @@ fn is_run(path: &Path) -> bool {
     RUN.iter().all(|name| path.join(name).exists())
 }
 
-/// Datasets in the folder at `path`, sorted by name.
+/// Paths of the datasets in the folder at `path`, quoted for a shell and sorted.
 fn datasets(path: &Path) -> Vec<String> {
     let entries = fs::read_dir(path).into_iter().flatten().flatten();
     let whole = entries.filter(|entry| entry.path().join(layout::HEADER).is_file());

@@ -295,10 +295,9 @@ fn most_of(file: &[u8]) -> usize {
     usize::try_from(limits::decoded_bytes(file.len())).unwrap_or(usize::MAX)
 }
 
-/// Decoded size of the image in `file`, bytes.
+/// Converts `bytes`, the decoded size of the image in `file`, to `usize`.
 ///
-/// # Errors
-/// Error message if the decoded size exceeds [`most_of`] of `file`.
+/// # Errors Error message if the decoded size exceeds the limit of [`most_of`].
 fn checked_length(bytes: u64, file: &[u8]) -> Result<usize, String> {
     let length = usize::try_from(bytes).map_err(|_| "the image exceeds the address space")?;
     match length <= most_of(file) {

@@ -22,7 +22,7 @@ pub(crate) struct LaterFacts {
     pub(crate) recorded_until: Option<Date>,
     /// Warnings of the devices about their readings.
     pub(crate) warnings: Vec<String>,
-    /// Settings that are known only after a session, such as the drift of a clock. A session may continue with other values.
+    /// Settings that are known only after a session, such as the drift of a clock. A later session replaces the values that it measures again.
     pub(crate) measured: BTreeMap<String, String>,
 }
 

@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 use crate::error::{DatasetError, Place};
 use crate::zero_table::zeros_clause;
 
-/// Start of a session, one row of the table. Lengths are in mm and forces in N, in the coordinate frame of the sensor.
+/// Start of a session, one row of the table. Before the first press, a test presses the gel gently (the gentle touch). Lengths are in mm and forces
+/// in N, in the coordinate frame of the sensor.
 #[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Session {
@@ -19,7 +20,7 @@ pub struct Session {
     pub begun_s: f64,
     /// Name of the sensor unit.
     pub unit: String,
-    /// Name of the specimen of the gentle touch, a test before the first press.
+    /// Name of the specimen of the gentle touch.
     pub specimen: String,
     /// Height at which the gel surface was found, mm.
     pub height_mm: f64,
@@ -41,7 +42,7 @@ pub struct Session {
     pub x_felt: bool,
     /// True if the transducer measured a push along y.
     pub y_felt: bool,
-    /// True if the touch changed the picture.
+    /// True if the gentle touch changed the picture.
     pub picture_changed: bool,
     /// Delay between the force reading and the halt of the robot, ms.
     pub reaction_ms: f64,

@@ -39,7 +39,7 @@ pub enum TaskKind {
     Class,
     /// One of two classes that changes within a trajectory, such as slip.
     Event,
-    /// One of two classes that holds for a whole trajectory, such as a grasp that holds.
+    /// One of two classes that is constant over a trajectory, such as the success of a grasp.
     Outcome,
     /// Position and orientation of an object.
     Pose,
@@ -243,7 +243,7 @@ pub enum TaskLabel {
 }
 
 impl TaskLabel {
-    /// Greatest deviation from 1 of the norm of a quaternion. Quaternions in single precision stay below it.
+    /// Maximum deviation of the norm of a quaternion from 1. Quaternions in single precision deviate less.
     pub const NORM_TOLERANCE: f64 = 1e-6;
 
     /// Norm of the quaternion of a pose; `None` for other labels.

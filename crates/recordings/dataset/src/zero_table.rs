@@ -81,7 +81,8 @@ pub fn add_press_zero(recording: &Path, zero: &PressZero) -> io::Result<()> {
     table.flush()
 }
 
-/// Rows of the table beside the recording at `recording`; empty without a table. A last row that was truncated by a crash is skipped.
+/// Rows of the table beside the recording at `recording`; empty without a table. A row that cannot be parsed is skipped, such as a row that a crash
+/// truncated.
 #[doc(hidden)]
 pub fn press_zeros(recording: &Path) -> Vec<PressZero> {
     let table = csv::Reader::from_path(place(recording));
@@ -93,7 +94,7 @@ pub fn press_zeros(recording: &Path) -> Vec<PressZero> {
 struct ZeroChanges {
     /// Greatest change of a component during a press, N.
     step_n: f64,
-    /// Greatest range of a component between the presses, N.
+    /// Greatest range of a component of the zeros before the presses, N.
     range_n: f64,
     /// Number of presses that were repeated because the zero changed too far.
     discarded: usize,

@@ -248,7 +248,7 @@ impl ForeignTable {
         }
     }
 
-    /// Distance for each code of `key`; `None` if it is not a depth map.
+    /// Distance for each code of the feature `key`; `None` if the feature is not a depth map.
     pub(crate) fn depth(&self, key: &str) -> Option<DepthCodes> {
         match self {
             ForeignTable::Columns(table) => table.depth(key),

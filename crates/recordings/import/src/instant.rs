@@ -7,7 +7,7 @@ use taceva_core::Date;
 pub(crate) struct TextInstant {
     /// Days since 1 January 1970; `None` for a time of day.
     day: Option<i64>,
-    /// Whole seconds since midnight of that day.
+    /// Whole seconds since midnight.
     second: i64,
     /// Digits of the fraction of the second.
     fraction: String,

@@ -91,7 +91,7 @@ pub(crate) struct Layout {
     reads: String,
     leaves_open: String,
     pub(crate) needs: Vec<Need>,
-    /// Pattern of a file that other folders lack, for a layout whose required files are common. `None` for other layouts.
+    /// Pattern of a file that identifies a layout whose required files are common; `None` for a layout with rare required files.
     mark: Option<String>,
     #[serde(default)]
     pub(crate) instead: Vec<Instead>,

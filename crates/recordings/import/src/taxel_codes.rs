@@ -9,16 +9,16 @@ pub(crate) struct TaxelCode {
     pub(crate) nearest: f64,
 }
 
-/// Greatest numbers of converters and displays.
+/// Full-scale numbers of A/D converters and of displays.
 const GREATEST: [f64; 7] = [
     255.0, 1_023.0, 4_095.0, 32_767.0, 65_535.0, 99_999.0, 9_999.0,
 ];
-/// Minimum number of rows with a code. At least one in `SHARE` rows must have the code.
+/// Minimum number of rows with the same code. At least one in `SHARE` rows must have this code.
 const LEAST: usize = 3;
 const SHARE: usize = 50;
-/// Minimum distance of a negative code from the next number. Noise has smaller distances.
+/// Minimum distance of a negative code from the nearest other number. Noise has smaller distances.
 const FAR: f64 = 2.0;
-/// Minimum distance of a great code from the next number, as a fraction of the range of all other numbers.
+/// Minimum distance of a full-scale code from the nearest other number, as a fraction of the range of all other numbers.
 const FAR_SHARE: f64 = 0.25;
 
 /// Codes among the numbers of one taxel: at most its least and its greatest number.

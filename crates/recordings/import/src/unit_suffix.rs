@@ -192,13 +192,13 @@ impl UnitSuffix {
         &self.written
     }
 
-    /// Unit of the quantity `quantity` that the name may mean; `None` if the name cannot mean one.
+    /// Unit of `quantity` among the possible units in the name; `None` if no possible unit has this quantity.
     pub(crate) fn of_quantity(&self, quantity: Unit) -> Option<SourceUnit> {
         let mut units = self.units.iter();
         units.find(|unit| unit.unit() == quantity).copied()
     }
 
-    /// Unit in the name; `None` if it is ambiguous.
+    /// Unit in the name; `None` if the unit is ambiguous.
     pub(crate) fn any_unit(&self) -> Option<SourceUnit> {
         match self.units.as_slice() {
             [only] => Some(*only),

@@ -29,7 +29,7 @@ pub(crate) enum Cells {
 /// Values of a pickle, with a limited number of visits.
 pub(crate) struct Values<'a> {
     pub(crate) values: &'a [Value],
-    /// Number of visits left. Nested lists could otherwise repeat one another exponentially.
+    /// Number of visits left. Lists that contain the same list several times could otherwise need exponentially many visits.
     left: u64,
     text: &'a dyn Fn(&Bytes) -> Option<String>,
 }

@@ -310,7 +310,7 @@ impl Machine<'_> {
         }
     }
 
-    /// Pushes a whole number of up to 255 bytes.
+    /// Pushes a whole number of at most 8 bytes. The number of bytes precedes them.
     fn whole(&mut self, at: u64, cursor: &mut Cursor<'_>) -> Result<(), Problem> {
         let count = cursor.byte()?;
         if count > 8 {

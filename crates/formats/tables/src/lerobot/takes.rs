@@ -1,5 +1,5 @@
-//! Checks the rows of each episode against its description. Otherwise two recordings with the same episode number would both get the pictures of the
-//! first.
+//! Checks the rows of each episode against its description. Without this check, two recordings with the same episode number would both get the
+//! pictures of the first recording.
 
 use std::collections::BTreeMap;
 

@@ -20,7 +20,7 @@ pub(crate) enum Value {
     Blob(Range<usize>),
 }
 
-/// Row. Only the bytes of requested values are read.
+/// Row. Overflow pages are read only if a requested value reaches into them.
 pub(crate) struct Record<'p, 'd> {
     pages: &'p mut Pages<'d>,
     page: u32,
@@ -196,7 +196,7 @@ impl<'p, 'd> Record<'p, 'd> {
         Ok(())
     }
 
-    /// Reads up to byte `end` of the row.
+    /// Reads the rest of the row unless its first `end` bytes are already read.
     fn read_to(&mut self, end: usize) -> Result<(), TableError> {
         if self.read.len() >= end {
             return Ok(());

@@ -21,7 +21,7 @@ impl BoxAt {
         self.end - self.body
     }
 
-    /// Child boxes, after `skipped` bytes of the box itself.
+    /// Child boxes, which begin after the first `skipped` bytes of the content.
     pub(super) fn boxes<'a>(&self, source: &'a Source, skipped: u64) -> Boxes<'a> {
         Boxes {
             source,

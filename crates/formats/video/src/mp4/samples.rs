@@ -116,7 +116,7 @@ fn read_small_sizes(source: &Source, found: &BoxAt) -> Result<Vec<u32>, VideoErr
     Ok(sizes)
 }
 
-/// Offset of each sample, computed from the offsets of chunks and the numbers of samples in each.
+/// Offset of each sample, computed from the offset of each chunk and its number of samples.
 fn read_offsets(source: &Source, tables: &BoxAt, sizes: &[u32]) -> Result<Vec<u64>, VideoError> {
     let (mut chunks, is_long) = match tables.find(source, b"co64")? {
         Some(found) => (table(source, &found)?.0, true),

@@ -22,8 +22,8 @@ const BYTE: f64 = 255.5;
 const COUNTS: f64 = 256.0;
 /// Minimum jump, in counts.
 const JUMP: f64 = 200.0;
-/// Number of changes, before and after a jump, which show that the force continues if the jump is removed. The force does not continue after a release or a new
-/// series of steps.
+/// Number of changes before a jump, and after a jump, whose sums must be opposite to the jump, as for a count that wraps around. A release, or a new
+/// series of steps, is not such a jump.
 const NEAR: usize = 3;
 /// Maximum change of a slowly varying force between consecutive samples, in counts. At most one change in `SHARE` may exceed it.
 const SLOW: f64 = 64.0;

@@ -29,7 +29,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// Labels of a channel outside the range of its certificates.
+/// Finding about labels of a channel outside the range of its certificates.
 fn outside(
     evidence: &Evidence<'_>,
     certificates: &[&Certificate],

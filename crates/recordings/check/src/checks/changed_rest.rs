@@ -20,7 +20,7 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum number of untouched pictures, and of pictures with contact, from which a mean is computed.
 const LEAST: usize = 3;
-/// Limits below which there is no contact: force, N, and depth, mm.
+/// Force below which there is no contact, N. `UNTOUCHED_MM` is this limit for the depth, mm.
 const UNTOUCHED_N: f64 = 0.02;
 const UNTOUCHED_MM: f64 = 0.01;
 /// Minimum change since the reference, as a multiple of the median noise. For normal noise this is three standard deviations.

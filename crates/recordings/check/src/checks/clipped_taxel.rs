@@ -24,7 +24,7 @@ const TIMES: u64 = 3;
 /// Maximum number of taxels named in a message; the others are counted.
 const NAMED: usize = 5;
 
-/// Minimum distance of a code from the next number, as a fraction of the range of all other numbers.
+/// Minimum distance of a code for "nothing measured" from the nearest other value, as a fraction of the range of all other values.
 const FAR: f32 = 0.25;
 
 /// End of the range of a taxel at which values accumulate.
@@ -80,7 +80,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     .collect()
 }
 
-/// End at which a taxel is clipped, or has a code; `None` for neither.
+/// End of the range at which a taxel is clipped or has a code for "nothing measured"; `None` without such an end.
 fn end_of(facts: &SignalFacts, position: usize) -> Option<End> {
     let TaxelFacts {
         least,

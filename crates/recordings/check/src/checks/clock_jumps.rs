@@ -18,13 +18,13 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum jump within one contact: a multiple of the usual step, and (`JUMP_S`) a time in seconds.
+/// Minimum jump of a clock, in usual steps between samples. A jump must also exceed `JUMP_S`, s.
 const JUMP_STEPS: f64 = 100.0;
 const JUMP_S: f64 = 1.0;
 /// Maximum frequency of jumps in recordings without contact points: a single jump, or one in this many steps. More jumps are pauses between presses.
 const SELDOM: usize = 100;
-/// Maximum length of nine in ten steps of a regular stream, as a multiple of the usual step. Recordings without contact points are searched for jumps
-/// only if they are regular streams.
+/// Maximum 90th percentile of the steps of a regular stream, as a multiple of the usual step. Recordings without contact points are searched for
+/// jumps only if they are regular streams.
 const REGULAR_STEPS: f64 = 3.0;
 /// Difference between consecutive time stamps that indicates two clocks, s: twelve days. A Unix clock and an uptime clock are 54 years apart.
 const TWO_CLOCKS_S: f64 = 1e6;
@@ -33,7 +33,7 @@ const UNIX_FROM_S: f64 = 631_152_000.0;
 /// Latest plausible Unix time of a recording (2100), s.
 const UNIX_TO_S: f64 = 4_102_444_800.0;
 const RUNNING_S: f64 = 1e9;
-/// Time by which a local clock is set back at the end of summer time, s, and the tolerance for the step of the stream.
+/// Time by which a local clock is set back at the end of summer time, s. `NEAR_S` is the tolerance for the step of the stream, s.
 const SUMMER_TIME_S: f64 = 3_600.0;
 const NEAR_S: f64 = 60.0;
 
@@ -80,7 +80,7 @@ fn last_stamps(table: &Table) -> Vec<f64> {
     last.into_values().collect()
 }
 
-/// Finds Unix clocks in a recording that also has clocks counting from a start.
+/// Finds Unix clocks in a recording that also has clocks counting from the start of a device.
 fn of_two_kinds(last: &[f64]) -> Option<Found> {
     let least = last.iter().copied().reduce(f64::min)?;
     let most = last.iter().copied().reduce(f64::max)?;

@@ -43,7 +43,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     few(distinct.len(), "contact point")
 }
 
-/// Finding for fewer clusters of this kind than a confidence interval needs.
+/// Finding for `count` clusters of the kind `kind`, if these are fewer than a confidence interval needs.
 fn few(count: usize, kind: &str) -> Vec<Found> {
     if count == 0 || count >= LEAST_CLUSTERS {
         return Vec::new();

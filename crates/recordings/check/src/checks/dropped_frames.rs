@@ -29,7 +29,7 @@ const WHOLE: f64 = 0.2;
 const MULTIPLES: f64 = 0.9;
 /// Resolutions to which time stamps are truncated, s. For example, a steady stream of 60 Hz in hundredths of a second has steps of one and two hundredths.
 const PLACES: [f64; 4] = [1.0, 0.1, 0.01, 0.001];
-/// Maximum relative deviation of a period from one of these resolutions. `STRAY` is the maximum drift of truncated time stamps from a constant
+/// Maximum relative deviation of a period from a resolution in `PLACES`. `STRAY` is the maximum drift of truncated time stamps from a constant
 /// period, in periods.
 const AT_PLACE: f64 = 0.01;
 const STRAY: f64 = 2.0;

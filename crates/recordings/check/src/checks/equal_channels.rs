@@ -48,7 +48,8 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// Number of samples with both labels, and the sign between the labels. `None` if the labels differ in a sample or never change.
+/// Number of samples with both labels, and the sign of their ratio: 1 for equal labels, −1 for opposite labels. `None` if their magnitudes differ in
+/// a sample, if the labels never change, or for too few samples.
 fn equal(evidence: &Evidence<'_>, one: usize, other: usize) -> Option<(usize, f64)> {
     let (one, other) = (evidence.table.truth(one), evidence.table.truth(other));
     let pairs: Vec<(f64, f64)> = (0..one.len())

@@ -26,7 +26,8 @@ const SHARE: usize = 4;
 /// Minimum correlation of pictures and forces at the lag. `BETTER` is the minimum factor by which the lag reduces the unexplained variance.
 const CLEAR: f64 = 0.6;
 const BETTER: f64 = 1.5;
-/// Number of parts of the recording. Most parts with a varying force must also show the lag, because a drift shifts the lag only in the whole recording.
+/// Number of parts of the recording. Most parts with a varying force must also show the lag, because a drift can feign a lag of the recording as a
+/// whole.
 const PARTS: usize = 3;
 /// Minimum variance of the force in a part, as a fraction of the greatest variance.
 const LOADED: f64 = 0.1;
@@ -179,7 +180,7 @@ fn alike(streams: BTreeMap<(Option<&str>, Option<&str>), Vec<Instant>>) -> Vec<V
 }
 
 impl Lag {
-    /// Common lag of all streams; `None` if there is no stream.
+    /// Common lag of all streams; `None` for too few samples, or if the steps are too long for a stream.
     fn of(streams: &[Vec<Instant>]) -> Option<Lag> {
         let pairs = streams.iter().flat_map(|stream| stream.windows(2));
         let mut steps: Vec<f64> = pairs.map(|pair| pair[1].0 - pair[0].0).collect();

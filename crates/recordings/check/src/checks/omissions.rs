@@ -125,7 +125,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         .collect()
 }
 
-/// True for a log joined by time that is faster than the tables: its unused rows outnumber the rows of the tables.
+/// True if the table `name` is joined by time. Such a log may be faster than the main table, so unused rows are normal.
 fn is_by_time(evidence: &Evidence<'_>, name: &str) -> bool {
     let mut joins = evidence.header.joins.iter();
     joins.any(|join| join.name == name && join.by == "time")

@@ -17,10 +17,11 @@ pub(super) static CHECK: Check = Check {
 /// Minimum length of a frozen stretch, samples. `STILL_SHARE` is its minimum fraction of all samples.
 const STILL: usize = 20;
 const STILL_SHARE: usize = 10;
-/// Minimum number of steps outside the stretch. At most one step in `HELD` may repeat its value, because a channel that is often held is not stuck.
+/// Minimum number of samples outside the frozen stretch. At most one in `HELD` of them may repeat the previous value, because a channel that is often
+/// held is not stuck.
 const BESIDE: usize = 10;
 const HELD: usize = 10;
-/// Maximum frequency of repeated pictures in the stretch: one in this many. If the pictures also freeze, the whole recording is frozen.
+/// Maximum frequency of repeated pictures in the frozen stretch: one in this many. If the pictures also freeze, the whole recording is frozen.
 const SAME_PICTURES: usize = 10;
 /// Minimum number of samples at the limit of a clipped force. `CUT_SHARE` is their minimum frequency.
 const CUT: usize = 10;

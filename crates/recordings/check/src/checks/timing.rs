@@ -30,7 +30,7 @@ const ROUNDING: f64 = 1e-6;
 /// Maximum relative difference, in a regular stream, between the usual step and the mean of the steps without gaps.
 const ALIKE: f64 = 0.05;
 
-/// End of the text of a rate that shows nothing to fix.
+/// Last words of the message about a sample rate without gaps, which needs no fix.
 const WITHOUT_GAPS: &str = ", without gaps";
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -124,7 +124,8 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// True if the times restart at every contact point, such as an episode. A clock that was set back once restarts at one contact point only.
+/// True if the times restart at every contact point. An episode can be a contact point. A clock that was set back once restarts at one contact point
+/// only.
 fn starts_anew(table: &Table, pairs: &[(usize, usize)]) -> bool {
     let times = table.t_s();
     let points = table.point_id();

@@ -109,7 +109,8 @@ impl MappedColumn {
     }
 }
 
-/// First column of `new`, from another map, whose mapping in `known` differs. Columns with other names are ignored.
+/// First column of `new`, from another map, that contradicts `known`: a source column with other settings or for another label. Source columns with
+/// other names are ignored.
 pub(super) fn misread(known: &[MappedColumn], new: &[MappedColumn]) -> Option<Misread> {
     new.iter().find_map(|column| {
         let same_label = known.iter().filter(|known| known.label == column.label);

@@ -100,7 +100,8 @@ impl RecordingFacts {
         }
     }
 
-    /// First setting whose value differs in `now`, as text. A setting that only `now` has is ignored, because earlier builds stored fewer settings.
+    /// Error message for the first setting whose value differs in `now`; `None` if all agree. A setting that only `now` has is ignored, because
+    /// earlier builds stored fewer settings.
     pub(crate) fn other_setting(&self, now: &RecordingFacts) -> Option<String> {
         self.settings.iter().find_map(|(name, before)| {
             let found = match now.settings.get(name) {
@@ -113,8 +114,8 @@ impl RecordingFacts {
         })
     }
 
-    /// Difference between these instruments and the instruments of `now`, as text; `path` is the begun recording. Earlier builds stored no
-    /// instruments.
+    /// Error message if the instruments differ from the instruments of `now`; `path` is the existing recording. A recording without instruments
+    /// agrees with any `now`, because earlier builds stored none.
     pub(crate) fn other_instrument(&self, now: &RecordingFacts, path: &Path) -> Option<String> {
         if self.traceability.is_empty() || self.traceability == now.traceability {
             return None;

@@ -246,7 +246,7 @@ pub struct FrameCodec {
     pub name: String,
     /// Name of the pixel format in FFmpeg.
     pub pixel_format: String,
-    /// True if the coding is lossy; `None` if it can be either.
+    /// True if the coding is lossy; `None` for a codec with lossy and lossless modes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lossy: Option<bool>,
     /// Decoder, with its version if known; `None` if frames are stored undecoded.

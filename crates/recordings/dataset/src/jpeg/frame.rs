@@ -6,11 +6,11 @@ use super::bits::big_endian;
 #[derive(Clone, Debug)]
 pub(super) struct Component {
     pub(super) id: u8,
-    /// Blocks across and down in a unit of an interleaved scan.
+    /// Blocks across and down in a minimum coded unit (MCU) of an interleaved scan.
     pub(super) sampling: [usize; 2],
     /// Number of the quantisation table.
     pub(super) quantiser: u8,
-    /// Blocks across and down, including padding of the last unit.
+    /// Blocks across and down, including the padding of the last minimum coded unit.
     pub(super) padded: [usize; 2],
     /// Blocks across and down without padding.
     pub(super) blocks: [usize; 2],
@@ -24,7 +24,7 @@ pub(super) struct Component {
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
     pub(super) is_progressive: bool,
-    /// Units of an interleaved scan, across and down.
+    /// Minimum coded units of an interleaved scan, across and down.
     pub(super) units: [usize; 2],
     pub(super) components: Vec<Component>,
 }

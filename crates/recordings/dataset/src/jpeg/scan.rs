@@ -11,7 +11,7 @@ pub(super) struct Tables {
     pub(super) huffman: [[Option<Huffman>; 4]; 2],
     /// For each quantisation table, the divisor of the DC coefficient.
     pub(super) quantisers: [Option<usize>; 4],
-    /// Units between restart markers; 0 for none.
+    /// Number of minimum coded units between restart markers; 0 without restart markers.
     pub(super) restart_interval: usize,
 }
 

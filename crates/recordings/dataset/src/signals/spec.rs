@@ -65,7 +65,7 @@ impl SignalsSpec {
         })
     }
 
-    /// Checks the values, which may come from a file. Returns an error message.
+    /// Checks the grid and the names of the values, which may come from a file. Returns an error message.
     pub(super) fn check(&self) -> Result<(), String> {
         let info = self.info;
         if !info.is_valid() {

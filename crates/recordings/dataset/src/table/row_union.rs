@@ -6,7 +6,7 @@ use super::views::{ViewFrames, column_kind};
 use super::{Cells, FrameEntry, Row, Table, TaskColumn};
 use crate::digest::{Digest, PartsDigest};
 
-/// Names for a row of another table in this table, and the new location of the frame.
+/// New names of a row that is copied from another table, and the new location of its frame.
 #[doc(hidden)]
 pub struct RowNames {
     /// Name of the sample.

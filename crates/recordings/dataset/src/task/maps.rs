@@ -34,7 +34,7 @@ pub struct MapFacts {
     pub invalid: Option<f64>,
 }
 
-/// The numbers of a map that an import accepts are finite.
+/// An import accepts only finite numbers in these fields, so each value equals itself.
 impl Eq for MapFacts {}
 
 impl MapFacts {

@@ -17,7 +17,7 @@ use taceva_dataset::internal::{limits, open_regular};
 /// Number of rows of a part; the last part may have fewer.
 pub(super) const PART_ROWS: u64 = 1 << 16;
 
-/// Read-ahead buffer of the scan, bytes.
+/// Size of the read-ahead buffer of the scan, bytes.
 const AHEAD: usize = 1 << 18;
 
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";

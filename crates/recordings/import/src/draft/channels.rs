@@ -28,8 +28,8 @@ impl Offered<'_> {
         format!("unit = {:?}{}", self.unit(), scale.unwrap_or_default())
     }
 
-    /// Rank among the candidates of a channel; the lowest is the best. If the best candidate with a scale states a unit (`is_stated`), candidates without a
-    /// scale rank after it.
+    /// Rank among the candidates of a channel; the lowest is the best. `is_stated` is true if the best candidate states a unit. Columns of counts or
+    /// volts then rank last.
     fn rank(&self, is_stated: bool) -> (bool, bool, Reason, bool, u32) {
         (
             self.candidate.open.is_some(),

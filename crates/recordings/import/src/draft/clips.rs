@@ -49,7 +49,7 @@ pub(super) struct BareClip<'g> {
     pub(super) path: &'g str,
     pub(super) frames: u64,
     pub(super) is_gray: bool,
-    /// True if tables beside the clip were not examined.
+    /// True if the draft is for this clip alone. Tables beside the clip were then not examined.
     pub(super) is_asked: bool,
     /// Paths of the other clips.
     pub(super) others: Vec<&'g str>,
@@ -85,7 +85,7 @@ pub(super) fn bare<'g>(
     })
 }
 
-/// Frame lines for the clips among `groups` that have a frame for each row of `main`.
+/// Frame lines for the clips beside `main`. A line has a gap if a clip has more or fewer frames than `main` has rows.
 pub(super) fn of(
     folder: &SourceFolder,
     groups: &[FileGroup],

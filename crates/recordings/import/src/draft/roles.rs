@@ -40,8 +40,8 @@ pub(super) enum Role {
     Other,
 }
 
-/// Minimum number of rows that count up by one in a column that is a counter and not a force. A larger minimum applies to a column with the name of
-/// the channel.
+/// Minimum number of rows that count up by one in a column that is taken for a counter. `COUNTED_BY_NAME` is the minimum for a column with the name
+/// of a channel.
 const COUNTED: usize = 4;
 const COUNTED_BY_NAME: usize = 16;
 
@@ -194,7 +194,7 @@ fn several(named: &Named, width: usize) -> Role {
     }
 }
 
-/// Number of numbers in each cell; `None` if cells differ.
+/// Number of numbers in each cell, at least 2; `None` for cells of different lengths, or without lists of numbers.
 fn width(cells: &[&str]) -> Option<usize> {
     let count = |cell: &str| {
         let is_number = |at: usize| {

@@ -296,7 +296,7 @@ fn empty_cells(table: &ForeignTable, name: &str) -> usize {
 /// Number of rows, spread over the table, that are searched for a non-zero number.
 const SPREAD: usize = 2_000;
 
-/// Adds the unit stated by the file, and checks for a number other than 0.
+/// Adds the unit stated by the file to `candidates`, and leaves a gap for a force or a torque that is 0 in all rows.
 fn complete(table: &ForeignTable, name: &str, candidates: &mut [Candidate]) {
     let stated = table.stated(name);
     let stated = stated.iter().find_map(|stated| stated.unit.as_deref());

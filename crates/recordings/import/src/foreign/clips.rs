@@ -98,7 +98,7 @@ impl Pictures for ClipPictures {
     }
 }
 
-/// Converts the codes in a picture of a depth map to distances.
+/// Converts the codes in a picture of a depth map to pixels of distances.
 fn of_depth(picture: &taceva_video::Picture, depth: &DepthPixels) -> Result<Picture, String> {
     let taceva_video::Picture::Deep {
         width,

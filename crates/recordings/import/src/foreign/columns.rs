@@ -100,7 +100,7 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
         Err(format!("`{key}` names no clip: this table has no clips"))
     }
 
-    /// Distance for each code of `key`; `None` if it is not a depth map.
+    /// Distance for each code of the feature `key`; `None` if the feature is not a depth map.
     fn depth(&self, _key: &str) -> Option<DepthCodes> {
         None
     }

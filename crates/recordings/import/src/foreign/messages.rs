@@ -52,7 +52,7 @@ struct MessagePictures {
 /// Topics of a recording, for a draft.
 pub(crate) struct Topics {
     pub(crate) names: Vec<String>,
-    /// Part of the recording with these topics, if the recording was truncated.
+    /// Readable part of the recording, if the recording was truncated.
     pub(crate) before_cut: Option<BeforeCut>,
 }
 

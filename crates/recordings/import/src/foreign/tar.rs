@@ -54,7 +54,7 @@ pub(crate) enum TarError {
 
 /// Input of an archive: a byte sequence in which some bytes may be skipped.
 pub(crate) trait Tape: Read {
-    /// Skips `bytes` bytes. Returns false if the input ends before.
+    /// Skips `bytes` bytes. Returns false if the input has fewer bytes.
     fn skip(&mut self, bytes: u64) -> io::Result<bool>;
 
     /// Total length, bytes; `None` if unknown.

@@ -13,7 +13,7 @@ use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{open_regular, shown_path};
 use taceva_files::TemporaryFolder;
 
-/// Limit of the unpacked size of a compressed archive: a multiple of the packed size, plus a number of bytes.
+/// Limit of the unpacked size of a compressed archive: `GROWTH` times the packed size, plus `GROWTH_BYTES`.
 const GROWTH: u64 = 128;
 const GROWTH_BYTES: u64 = 64 << 20;
 /// Name prefix of the folder of unpacked files.

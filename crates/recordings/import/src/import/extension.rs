@@ -289,7 +289,7 @@ fn differs(key: &str, own: &str, other: &str) -> String {
     )
 }
 
-/// Removes the picture without contact from `frames`. Rejects a picture that differs from the picture of the dataset.
+/// Removes the picture without contact from `frames`. Rejects rows whose picture without contact differs from that of the dataset.
 fn check_reference(before: &Dataset, frames: &mut PlannedFrames) -> Result<(), ImportError> {
     let header = before.header();
     let known = match &frames.view {

@@ -52,7 +52,7 @@ pub(super) struct Resolved {
     pub(super) main: ForeignTable,
     /// Taxel values of every row, if they are in columns.
     pub(super) signals: Option<ColumnSignals>,
-    /// Interpretation of the cells of each class.
+    /// Interpretation of the cells of each column of classes.
     pub(super) class_cells: Vec<ClassCells>,
     pub(super) warnings: Vec<ImportWarning>,
     /// Unread topics of the recording, each with the reason.

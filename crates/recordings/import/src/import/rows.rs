@@ -55,7 +55,7 @@ pub(super) struct MappedTable<'a> {
     spacing: Option<usize>,
     attributes: Vec<usize>,
     classes: Vec<usize>,
-    /// Interpretation of the cells of each class.
+    /// Interpretation of the cells of each column of classes.
     class_cells: Vec<ClassCells>,
     /// Columns of each task.
     tasks: Vec<Vec<usize>>,

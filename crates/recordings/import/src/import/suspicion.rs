@@ -55,8 +55,8 @@ impl fmt::Display for Suspicion {
 /// Minimum number of values for a check.
 const LEAST_VALUES: usize = 3;
 
-/// Plausible magnitudes of gel contacts in a unit. At least one must reach `small`. The median must not exceed `large`, and the 95th percentile must not exceed
-/// `most`. `typical` is the usual range.
+/// Plausible magnitudes of gel contacts in a unit. At least one magnitude must reach `small`. The median must not exceed `large`, and the 95th
+/// percentile must not exceed `most`. `typical` is the usual range.
 struct Plausible {
     small: f64,
     large: f64,
@@ -137,7 +137,7 @@ pub(super) fn magnitude_suspicion_in(
     ))
 }
 
-/// Common units in which `typical`, converted from the unit `said`, would be a usual number.
+/// Common units, other than `said`, that would bring `typical` into the usual range of the channel. `said` is the stated unit of `typical`.
 fn meant(plausible: &Plausible, said: &str, typical: f64) -> Vec<&'static str> {
     let in_kept = |symbol: &str| SourceUnit::parse(symbol).ok().map(|unit| unit.convert(1.0));
     let Some(said_as) = in_kept(said) else {

@@ -133,7 +133,7 @@ fn quoted<'t>(text: &'t str, before: &str) -> Option<&'t str> {
     Some(rest.split_once('"')?.0)
 }
 
-/// Handles both generations of column names, and drops force columns that contain only 0.0.
+/// Selects the map for numbered columns (`pose_1`) or for named columns, and drops force columns that contain only 0.0.
 fn bristol(text: String, folder: &SourceFolder) -> Result<String, ImportError> {
     let table = CsvTable::read(&folder.file(folder.path(), "targets.csv")?)?;
     let mut text = match table.has("pose_1") {

@@ -43,7 +43,7 @@ pub(crate) enum Reason {
     Name,
     /// The name of the channel with a unit.
     NameWithUnit,
-    /// Quantity and axis, given by the words of its own name.
+    /// Quantity and axis, given by the last part of the name alone.
     Words,
     /// Quantity and axis, given together with other words: `left_force_z`.
     MoreWords,

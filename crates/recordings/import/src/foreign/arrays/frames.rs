@@ -155,7 +155,7 @@ impl Pictures for ArrayPictures {
     }
 }
 
-/// Length within one read of a few megabytes.
+/// Converts `length` to `usize`. The length is within one read of a few megabytes.
 fn as_size(length: u64) -> usize {
     usize::try_from(length).unwrap_or(usize::MAX)
 }

@@ -28,7 +28,8 @@ pub(super) fn candidates(group: &str, name: &str) -> Vec<String> {
     paths
 }
 
-/// Number of rows of a group: the most frequent length of the first axis of its arrays. If several are equally frequent, the largest.
+/// Number of rows of a group: the most frequent length of the first axis of its arrays. If several lengths are equally frequent, the greatest of
+/// them.
 pub(super) fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
     let mut lengths: BTreeMap<u64, usize> = BTreeMap::new();
     let names = file.names();

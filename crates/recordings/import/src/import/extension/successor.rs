@@ -15,7 +15,8 @@ use crate::import::copy::CopiedFrames;
 use crate::import::plan::ImportPlan;
 use crate::import::signals::PlannedSignals;
 
-/// Creates hard links to the frames of `before` in the staged folder, under the same paths. Returns the folders of the frames.
+/// Shares the frames of `before` with the staged folder under the same paths, by hard links, or by copies on file systems without them. Returns the
+/// folders of the frames.
 pub(super) fn share_files(
     before: &Dataset,
     staged: &StagedFolder,

@@ -70,7 +70,7 @@ impl TimeJoin {
 pub(crate) enum Pick {
     /// Nearest row; of two equally near rows, the earlier.
     Nearest,
-    /// Last row that is not later.
+    /// Last row at or before the time.
     Before,
     /// Linear interpolation between the row before and the row after, each within the tolerance.
     Linear,

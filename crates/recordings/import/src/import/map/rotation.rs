@@ -9,7 +9,7 @@ use super::check::Check;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::shown;
 
-/// Maximum rounding error of a period in radians, in degrees, when compared with whole degrees. Allows for three decimals.
+/// Maximum deviation of a period in radians from whole degrees, in degrees: the rounding error of three decimals.
 const ROUNDED_DEG: f64 = 0.03;
 
 /// Full turn in `unit`: 360 for degrees, 2π for radians.

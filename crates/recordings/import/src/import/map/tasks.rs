@@ -25,8 +25,8 @@ const SOURCE_TABLE: &str = "source_table";
 /// Task with its source.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct TaskMap {
-    /// Definition of the task. It has 1 source column for classes and depth-map files, 3 for places, 7 for poses, and 12 for poses with a rotation
-    /// matrix.
+    /// Definition of the task. The task has 1 source column for classes and depth-map files, 3 for places, 7 for poses, and 12 for poses with a
+    /// rotation matrix.
     pub(crate) task: Task,
     /// Units of the positions x, y, z of a pose or a place; empty for other tasks.
     pub(crate) units: Vec<SourceUnit>,

@@ -1,4 +1,4 @@
-//! Decides if the cells of a class are names or positions in its list.
+//! Decides if the cells of a column of classes are names, or positions in the list of names.
 
 use super::Sources;
 use super::columns::base_of;
@@ -7,7 +7,7 @@ use crate::foreign::ForeignTable;
 use crate::import::map::ClassMap;
 use taceva_dataset::internal::shown;
 
-/// Interpretation of the cells of a class.
+/// Interpretation of the cells of a column of classes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::import) enum ClassCells {
     /// Positions in the list, even if a name is an equal number.
@@ -18,7 +18,7 @@ pub(in crate::import) enum ClassCells {
     Either,
 }
 
-/// Interpretation of the cells of each class, in map order.
+/// Interpretation of the cells of each column of classes, in map order.
 ///
 /// # Errors
 /// [`ImportError::Table`] if a name is also the position of another name and the file does not state the interpretation.

@@ -138,7 +138,7 @@ impl<'a> Joined<'a> {
         !self.tables.is_empty() && tables.all(|joined| holds_integers(&joined.table, column))
     }
 
-    /// Columns of the main table used as keys.
+    /// Columns of the main table that the join reads: its keys, or the column of its lag.
     pub(super) fn own_columns(&self) -> impl Iterator<Item = &str> {
         let columns = match &self.map.by {
             JoinBy::Columns(columns) => columns.as_slice(),

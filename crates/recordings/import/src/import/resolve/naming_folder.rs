@@ -11,7 +11,8 @@ pub(in crate::import) struct NamedBy {
     views: Vec<ViewNamedBy>,
 }
 
-/// For each row, folder of the joined table that names the picture, and of the table that names the reference; `None` if the main table names it.
+/// Folders, for each row, of the joined table that names the picture, and of the joined table that names the reference. `None` if the main table
+/// names the pictures or the references.
 #[derive(Debug)]
 struct ViewNamedBy {
     frames: Option<Vec<PathBuf>>,

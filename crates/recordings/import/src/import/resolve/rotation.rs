@@ -4,10 +4,11 @@ use super::table::ResolvedTable;
 use crate::error::ImportError;
 use crate::import::map::RotationMap;
 
-/// Minimum decrease in distance for which equivalent numbers are preferred, in the unit of the cells.
+/// Minimum decrease of the distance to the previous row for which the equivalent rotation is preferred, in the unit of the cells.
 const LEAST_GAIN: f64 = 1e-9;
 
-/// Replaces each rotation by the equivalent rotation nearest to the previous row. Robots alternate between v and -v near half a turn.
+/// Replaces each rotation by the equivalent rotation nearest to the previous row. Near half a turn, robots alternate between a rotation vector and
+/// its negative.
 ///
 /// # Errors
 /// [`ImportError::Table`] naming the row for a quaternion whose norm is not 1.

@@ -10,7 +10,7 @@ use crate::import::warning::ImportWarning;
 use crate::taxel_codes::codes;
 use taceva_core::single;
 
-/// Maximum number of rows, at equal distances, in which codes are searched.
+/// Maximum number of rows, equally spaced, that are searched for codes that mean "nothing measured".
 const SAMPLED: usize = 1000;
 
 /// Values of every row, grouped by taxel, in the stored unit. A cell without a number becomes NaN, which is an error if the row is kept.

@@ -58,13 +58,14 @@ pub(super) struct Timing {
     first_swapped: Option<usize>,
 }
 
-/// Number of rows with a long lag, and numbers of these rows for which the joined table has a row at the compared time.
+/// Number of rows with a long lag, and numbers of these rows with an equal time in the joined table: without the lag, with the lag, and after another
+/// shift.
 #[derive(Clone, Debug, Default)]
 struct Lagged {
     rows: u64,
     without_lag: u64,
     with_lag: u64,
-    /// Number of rows with an equal time only by chance, after a shift by whole steps.
+    /// Number of rows with an equal time in the joined table after a shift by whole steps, and therefore by chance.
     by_chance: u64,
 }
 
