@@ -38,7 +38,7 @@ pub struct Predicted {
     pub(super) unbounded: Vec<Column>,
     /// Standard deviation of each prediction, if the model predicts it.
     pub(super) deviation: Option<Vec<Column>>,
-    /// Distance of each frame from the training part, if requested and known. The limit is 1.
+    /// Distance of each frame from the training part, if requested and known. A frame at a distance above 1 is unlike the training frames.
     pub(super) distance: Option<Vec<f64>>,
     /// True for each prediction beyond the bounds of the model, by channel; `None` for a channel without bounds.
     pub(super) beyond: Vec<Option<Vec<bool>>>,

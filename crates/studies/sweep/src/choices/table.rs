@@ -19,7 +19,7 @@ fn without_validation(groups: &[Group<'_>]) -> Vec<String> {
     silent
 }
 
-/// Question that the choice for a channel answers.
+/// Name of the quantity that `channel` measures; empty for an unknown channel.
 fn question(channel: &str) -> &'static str {
     match channel {
         "Pz" => "depth",

@@ -30,7 +30,7 @@ const DEPTH_PART: f64 = 0.5;
 /// with the height of the contact. Taps use a greater fraction.
 const REFERENCE_MM: f64 = 0.3;
 const REFERENCE_PART: f64 = 0.3;
-/// Greatest ratio of the force slope to force divided by depth: 1.5 for a ball (Hertz).
+/// Greatest ratio of the slope of force over depth to force divided by depth: 1.5 for a ball (Hertz).
 const SLOPE: f64 = 1.5;
 /// Sideways push to each side, in mm.
 const PUSH_MM: f64 = 0.2;
