@@ -8,7 +8,7 @@ use taceva_metrics::{ClusterSum, ClusterSums, LEAST_CLUSTERS};
 
 use crate::estimate::{Estimate, Undefined};
 
-/// Share of the distribution below the upper end of an interval.
+/// Share of Student's t distribution below the upper end of a 95 % interval.
 pub(crate) const UPPER: f64 = 0.975;
 
 /// Absolute errors of some rows, summed by cluster.

@@ -229,7 +229,7 @@ impl Watcher<'_> {
         }
     }
 
-    /// Reads the switch. A switch that cannot be read counts as released.
+    /// Reads the switch. A switch that cannot be read counts as lost.
     fn feel(&mut self) {
         let Some(switch) = self.switch else {
             return;

@@ -251,7 +251,7 @@ impl Predicted {
         found
     }
 
-    /// Contact point of each row, if all rows name a contact point.
+    /// Contact point of each row, or the group in its place; `None` if a row has neither.
     pub fn points(&self) -> Option<&[String]> {
         self.points.as_deref()
     }

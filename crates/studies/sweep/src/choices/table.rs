@@ -6,7 +6,7 @@ use taceva_report::{Cell, Column, FormattedValue, Table};
 use super::{Choice, ends, number};
 use crate::analysis::Group;
 
-/// Configurations with results but without a validation error, each once.
+/// Configurations with a result that has no validation error, each once.
 fn without_validation(groups: &[Group<'_>]) -> Vec<String> {
     let mut silent: Vec<String> = Vec::new();
     for group in groups {
