@@ -238,7 +238,7 @@ impl Run<'_> {
 }
 
 impl Tip<'_> {
-    /// Descends by steps until the force exceeds the threshold along any axis. Returns the height of contact, interpolated between the last step
+    /// Descends by steps until the magnitude of the force reaches the threshold. Returns the height of contact, interpolated between the last step
     /// below the threshold and the first step above. `None` at the end of the search.
     fn feel_down(&mut self, threshold_n: f64) -> Step<Option<Surface>> {
         self.watch(MotionStage::Search);
