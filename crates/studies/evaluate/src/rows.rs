@@ -216,7 +216,7 @@ impl Divided {
         }
     }
 
-    /// Rejects a division without test samples.
+    /// Rejects the split `all`, which leaves no test samples.
     ///
     /// # Errors
     /// [`EvaluateError::Request`] with the alternatives.

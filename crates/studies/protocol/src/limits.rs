@@ -73,7 +73,7 @@ pub const FROZEN_READINGS: u32 = 8;
 const DECELERATION_MM_S2: f64 = 1_000.0;
 /// Least length of a segment, in standard deviations of the reported pose.
 const SEGMENT_NOISES: f64 = 4.0;
-/// Margin in standard deviations. Fewer than 3 in 1,000 normally distributed values exceed it.
+/// Margin for pose noise, in standard deviations. Fewer than 3 in 1,000 normally distributed values exceed it.
 const NOISE_SPREAD: f64 = 3.0;
 
 impl Overshoot {

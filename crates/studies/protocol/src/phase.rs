@@ -159,7 +159,7 @@ impl PhaseInputs<'_> {
     }
 }
 
-/// Index of a depth among the depths of one point.
+/// One of the depths of a point: depth number `index` of `parts`.
 #[derive(Clone, Copy, Debug)]
 struct DepthPart {
     point: u64,

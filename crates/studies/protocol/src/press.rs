@@ -135,7 +135,7 @@ impl Press {
         }
     }
 
-    /// Rotates each shear that would leave `footprint` towards the middle. Removes the shear if every direction leaves the footprint.
+    /// Mirrors each shear that would leave `footprint` along x, y or both. Removes the shear if every mirrored shear leaves the footprint.
     pub(crate) fn turn_shear_inwards(&mut self, footprint: &Footprint) {
         let [x, y] = self.place;
         let Motion::Indent(waypoints) = &mut self.motion else {

@@ -63,7 +63,7 @@ impl fmt::Display for Subject {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PlanReason {
-    /// A reason that also applies to samples without a plan.
+    /// A reason that also occurs in evaluations without a plan.
     Skip(SkipReason),
     /// A field has no source.
     Unresolved {

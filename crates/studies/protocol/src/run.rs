@@ -3,7 +3,7 @@
 //! A press is an approach, a search for contact, its waypoints and a retreat. In contact the tip moves in segments of 15 ms, or in longer segments if
 //! guard threads run and no limit is near. After each segment, force and pose are read and checked by the [`Supervisor`]. A limit of the gel ends the
 //! descent, and the run continues. A press interrupted by stale signals, or during which the zero of the force changed, is repeated. Any other cause
-//! stops the run, and the same call resumes it. The tip leaves the gel if its signals can be trusted and the robot reports no fault.
+//! stops the run, and the same call resumes it. At a stop, the tip leaves the gel if force and pose are reliable and the robot reports no fault.
 
 mod align;
 mod bounds;

@@ -118,7 +118,7 @@ fn unit(draws: Draws, counter: u64) -> f32 {
     (draws.bits(counter) >> 40) as f32 / 16_777_216.0
 }
 
-/// Pixels to the left of `place`; 0 for a negative place.
+/// Whole part of a place or length in pixels; 0 if it is negative.
 pub(crate) fn index(place: f32) -> usize {
     whole_size(f64::from(place))
 }

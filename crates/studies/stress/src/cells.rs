@@ -1,4 +1,4 @@
-//! Severities and cells of faults of pictures.
+//! Severities of faults of pictures, and their cells: one fault at one severity.
 
 use taceva_evaluate::EvaluateError;
 use taceva_models::{MarkerTracker, Model};
@@ -42,7 +42,7 @@ pub(crate) fn levels(
     Ok(levels.collect())
 }
 
-/// Every fault at every severity.
+/// Cells of every fault at every severity.
 pub(crate) fn cells<'m>(
     setup: &Setup,
     scale: &Scale,

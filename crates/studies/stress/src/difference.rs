@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use taceva_metrics::{Difference, decide};
 
-/// Difference of two errors, decided within its family.
+/// Difference of two errors, tested in a family of differences by Holm's procedure.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ErrorDifference {
     /// The difference, in the unit of the channel.

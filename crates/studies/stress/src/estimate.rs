@@ -16,7 +16,7 @@ pub enum Undefined {
     Empty,
     /// The error without a fault is zero, so no ratio to it exists.
     ZeroBaseline,
-    /// All labels are equal, so no constant prediction can be better or worse.
+    /// All labels are equal, so a constant prediction has no error to compare with.
     ConstantTruth,
     /// The fault does not add to the error, so no part of it can be removed.
     NoExcess,

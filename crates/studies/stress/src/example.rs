@@ -34,7 +34,7 @@ pub struct Examples {
     /// Time of the sample, a share of the duration of the recording.
     share: f64,
     markers: Option<MarkerTracker>,
-    /// Severity of each cell, and its fault.
+    /// Each tested fault, and its severity.
     cells: Vec<(u8, Stress<'static>)>,
 }
 

@@ -32,7 +32,7 @@ pub struct Fault {
     pub table: [f64; 5],
     /// Greatest parameter.
     pub most: f64,
-    /// Limitation of the numbers of the fault, for readers; `None` without a limitation.
+    /// Limitation of the scores of the fault, for readers; `None` without a limitation.
     pub note: Option<&'static str>,
     pub(crate) effect: Effect,
 }
@@ -42,11 +42,11 @@ pub struct Fault {
 pub(crate) enum Effect {
     /// Changes the pixel values of the picture.
     Numbers(fn(&mut Canvas, &Realisation)),
-    /// Changes the numbers of the picture by a parameter that grows with time: from 0 at the first row to the whole parameter at the last row.
+    /// Changes the pixel values by a parameter that grows with time: from 0 at the first row to the whole parameter at the last row.
     Growing(fn(&mut Canvas, &Realisation)),
-    /// Changes the numbers of the picture at the places of markers.
+    /// Changes the pixel values at the places of markers.
     Markers(fn(&mut Canvas, &Realisation, &Markers)),
-    /// Changes the numbers of the colours of lost LEDs.
+    /// Changes the pixel values of the colours of lost LEDs.
     Leds(fn(&mut Canvas, &Realisation, Leds)),
     /// Replaces the picture by the previous picture.
     Before,

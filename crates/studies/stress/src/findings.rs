@@ -6,7 +6,7 @@ use crate::estimate::{Estimate, Undefined};
 use crate::report::{CellScore, FaultReport, SeverityReport, Unnoticed};
 use crate::severity::NEVER;
 
-/// Stimulus below which a fault hardly changes the pictures.
+/// Stimulus below which a fault hardly changes the pictures: the change of pictures by the fault, divided by their change by contact.
 pub(crate) const LOW: f64 = 0.05;
 /// Code of the check of untouched pictures.
 pub(crate) const CHANGED_REST: &str = "TAC034";

@@ -8,7 +8,7 @@ use taceva_metrics::{ClusterSum, ClusterSums, LEAST_CLUSTERS};
 
 use crate::estimate::{Estimate, Undefined};
 
-/// Share of the distribution below the upper end of an interval.
+/// Share of Student's t distribution below the upper end of a 95 % interval.
 pub(crate) const UPPER: f64 = 0.975;
 
 /// Absolute errors of some rows, summed by cluster.
@@ -108,8 +108,9 @@ impl Errors {
 
 /// Mean over some cells of the ratios of their errors to the errors without a fault.
 ///
-/// To first order its logarithm changes by Σ r_c (δ_c − δ_0) / Σ r_c. Here r_c is the ratio of cell c, and δ the relative change of a mean error. A
-/// cluster is left out of every cell and of the clean errors at once, because all errors are of the same samples.
+/// To first order its logarithm changes by Σ r_c (δ_c − δ_0) / Σ r_c. Here r_c is the ratio of cell c. δ_c is the relative change of the mean error
+/// in cell c, and δ_0 that of the mean error without a fault. A cluster is left out of every cell and of the clean errors at once, because all errors
+/// are of the same samples.
 ///
 /// # Reference
 /// Busing, Meijer and van der Leeden, Delete-m jackknife for unequal m, Statistics and Computing 9 (1999).

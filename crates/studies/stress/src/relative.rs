@@ -173,7 +173,7 @@ fn difference(own: &Excess<'_>, reference: &Excess<'_>, seed: u64) -> Result<Dif
     tested.map_err(|reason| reason.to_string())
 }
 
-/// Note that no values could show a difference, because the patterns of signs are too few for the family; `None` if some values could.
+/// Note for a family of tests that could show no difference at any values, because it has too few patterns of signs; `None` for other families.
 fn out_of_reach(tested: &[Result<Difference, String>]) -> Option<String> {
     let least = tested.iter().flatten().map(|of| of.test.least_p());
     let least: Vec<f64> = least.collect();

@@ -63,7 +63,7 @@ pub struct StressReport {
     /// Faults of plugins that failed, with reasons.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub failed: Vec<SkippedFault>,
-    /// Limitations of the numbers, as sentences.
+    /// Limitations of the scores, as sentences.
     pub notes: Vec<String>,
     /// Origin of the numbers.
     pub provenance: Provenance,
@@ -132,7 +132,7 @@ pub struct FaultReport {
     pub title: String,
     /// Meaning and unit of the parameter.
     pub parameter: String,
-    /// Limitation of the numbers, for readers; `None` without a limitation.
+    /// Limitation of the scores of the fault, for readers; `None` without a limitation.
     pub note: Option<String>,
     /// Severities that were tested.
     pub severities: Vec<SeverityReport>,

@@ -25,7 +25,8 @@ const NO_CONTACT: &str = "the change by contact is unknown: expected rows withou
 /// Minimum number of markers for a fault of markers. Fewer spots would fit into any grid.
 const LEAST_MARKERS: usize = 9;
 
-/// Metrics of cells, of which every cell has the first two. All are sums over samples, so a sample may have several draws.
+/// Metrics of a cell, which is one fault at one severity. Every cell has the first two. All are sums over samples, so a sample may have several
+/// draws.
 const METRICS: [&str; 8] = [
     "mae",
     "skill",

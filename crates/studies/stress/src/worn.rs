@@ -53,7 +53,7 @@ pub(crate) struct NewGel<'a> {
     pub(crate) scale: &'a Scale,
 }
 
-/// Scores of a fault of a gel.
+/// Scores of one fault at each tested severity.
 pub(crate) struct ScoredFault {
     pub(crate) report: FaultReport,
     /// Scores of each severity, with an untouched picture from before the fault.

@@ -113,8 +113,9 @@ impl ScoredWidth {
     /// Expected width with the points `tested`; `None` if they are too few for an interval. Infinitely many samples of each point give the lower
     /// limit of the width for further presses at the same places.
     ///
-    /// The interval is symmetric on a logarithm. Its standard error is that of a mean of points with variance s_b² + s_w²/m, for m samples of
-    /// each. Unequal clusters leave ν < g − 1 degrees of freedom of g clusters: 1/ν − 1/(g − 1) is inversely proportional to the points.
+    /// The interval is symmetric on a logarithm. Its standard error is that of a mean of points with variance s_b² + s_w²/m, where s_b² is the
+    /// variance between points, s_w² within a point, and m the samples of each point. Unequal sizes leave ν < g − 1 degrees of freedom of g clusters:
+    /// 1/ν − 1/(g − 1) is inversely proportional to the number of points.
     pub fn expected(&self, tested: TestedPoints) -> Option<f64> {
         if tested.points < LEAST_CLUSTERS {
             return None;
@@ -206,7 +207,7 @@ fn axes<'a>(samples: &'a Samples, channel: &str) -> Vec<SampleChannel<'a>> {
     }
 }
 
-/// Sizes of the errors of the calibration presses whose mean is `metric`, by contact point.
+/// Absolute or squared errors of the calibration presses whose mean is `metric`, by contact point.
 fn errors<'a>(
     samples: &'a Samples,
     axes: &[SampleChannel<'_>],

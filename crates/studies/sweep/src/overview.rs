@@ -1,4 +1,4 @@
-//! Results of a sweep as a text table, averaged by any of the names that vary.
+//! Results of a sweep as a text table, with one mean for each combination of chosen names.
 
 use std::collections::{BTreeMap, BTreeSet};
 

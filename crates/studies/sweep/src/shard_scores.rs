@@ -18,7 +18,8 @@ use crate::times;
 /// File of the scores, byte for byte as printed by `taceva score --format json`, of channels or of tasks.
 const RESULT: &str = "score.json";
 
-/// Merges the shards in `folder` into the file of scores. Writes no file while a shard is missing.
+/// Merges the shards in `folder` into the file of scores, and writes the run times. While a shard is missing, an earlier file of scores is removed
+/// instead.
 ///
 /// # Errors
 /// [`SweepError`] for a state that was edited or belongs to other tables. Also if the folder cannot be written.

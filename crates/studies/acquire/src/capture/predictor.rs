@@ -117,7 +117,7 @@ impl<'a> LivePredictor<'a> {
         self.table.as_ref().map(lock)
     }
 
-    /// Prepares for frames with the format of `untouched`. This frame is also the reference frame if the model needs a reference frame.
+    /// Prepares for frames of the format `info`. The frame `untouched` is the reference frame if the model needs a reference frame.
     pub(super) fn begin(
         &self,
         info: taceva_core::FrameInfo,

@@ -190,7 +190,7 @@ impl ClockFollower {
         }
     }
 
-    /// Adds the least offset of a complete block of `lasts_s`.
+    /// Adds the least offset of a complete block that lasts `lasts_s`, in s.
     fn close(&mut self, least: Offset, lasts_s: f64) {
         let is_later = self.least.last().is_none_or(|last| last.at_s < least.at_s);
         if !is_later {
@@ -205,7 +205,7 @@ impl ClockFollower {
         }
     }
 
-    /// Merges neighbouring blocks of `lasts_s`, or forgets the oldest block if the blocks have their full duration.
+    /// Merges neighbouring blocks that last `lasts_s` each, in s, or forgets the oldest block if the blocks have their full duration.
     fn shorten(&mut self, lasts_s: f64) {
         if lasts_s >= BLOCK_MAX_S {
             self.least.remove(0);

@@ -142,9 +142,9 @@ impl Drop for Over<'_> {
 struct Watcher<'a> {
     supervisor: &'a SharedSupervisor,
     punctuality: &'a Punctuality<'a>,
-    /// True if a motion was in progress at the end of the last turn, or during this turn.
+    /// True if a motion was in progress at the end of the last turn of the thread, or during this turn.
     was_under_way: bool,
-    /// True if the last turn found the robot halted because of a stale reading.
+    /// True if the last turn of the thread found the robot halted because of a stale reading.
     was_stale: bool,
     halts: Arc<HaltCalls>,
     follower: HaltFollower,
@@ -174,7 +174,7 @@ impl Watcher<'_> {
         self.follow_halt(call, self.was_under_way, Held::No, MonotonicClock.now_s());
     }
 
-    /// Records a late turn during a motion, a stale reading, and a halt.
+    /// Records a late turn of the thread during a motion, a stale reading, and a halt.
     fn time(&mut self, turn: &Turn) {
         let supervisor = self.supervisor.lock();
         let [is_under_way, was_under_way] = [supervisor.is_under_way(), self.was_under_way];
@@ -229,7 +229,7 @@ impl Watcher<'_> {
         }
     }
 
-    /// Reads the switch. A switch that cannot be read counts as released.
+    /// Reads the switch. A switch that cannot be read counts as lost.
     fn feel(&mut self) {
         let Some(switch) = self.switch else {
             return;

@@ -78,7 +78,7 @@ impl RecordedPresses {
         self.recorder.has_press(&press.to_string())
     }
 
-    /// Adds the zero of the transducer of an attempt at `press` to the table next to the recording.
+    /// Adds the zero of the transducer in an attempt at `press` to the table next to the recording.
     fn keep_zero(
         &self,
         press: ContentId,

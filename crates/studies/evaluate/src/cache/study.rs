@@ -47,7 +47,8 @@ impl StudyCache<'_> {
         Ok(value)
     }
 
-    /// Returns the recording at `place`, or links the recording stored under `key`. If neither exists, calls `make` and stores its result.
+    /// Links the recording stored under `key` to `place`, and returns it with `true`. If `place` exists or no recording is stored, calls `make`,
+    /// stores its result, and returns it with `false`.
     pub fn recording<E>(
         self,
         key: &Key,

@@ -133,8 +133,9 @@ impl GivenRows {
         labels.collect()
     }
 
-    /// Scores of `predictions` for the rows to predict. Predictions of a model fitted now are clipped to the bounds of its labels, as for built-in models. Its
-    /// skill is relative to the mean of its labels. The training data of any other model is unknown, and a note states this.
+    /// Scores of `predictions` for the rows to predict. Predictions of a model fitted now are clipped to the bounds of its labels, as for built-in
+    /// models. The skill of such a model is relative to the mean of its labels. The training data of any other model is unknown, and a note states
+    /// this.
     ///
     /// # Shapes
     /// `predictions`: `[rows, channels]`, row by row.

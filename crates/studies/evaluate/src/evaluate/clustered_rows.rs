@@ -74,7 +74,7 @@ impl<'a> ClusteredRows<'a> {
     /// Number of folds: five, or one for each cluster if there are fewer than five clusters.
     ///
     /// # Errors
-    /// [`EvaluateError::Request`] for fewer than two clusters of `task`, which `cluster` names.
+    /// [`EvaluateError::Request`] for fewer than two clusters of `task`; the message names the column `cluster`.
     pub(super) fn folds(&self, task: &Task, cluster: &str) -> Result<usize, EvaluateError> {
         let folds = self.count.min(MOST_FOLDS);
         if folds >= 2 {

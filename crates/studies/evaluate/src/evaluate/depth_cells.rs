@@ -93,7 +93,7 @@ struct Place {
 }
 
 impl Place {
-    /// Place of `pixel` of `pixels` among `cells`.
+    /// Place of the pixel with index `pixel` among `cells`, in a row or column of `pixels` pixels.
     fn of(pixel: usize, pixels: usize, cells: usize) -> Place {
         // Distances from the centre of the first cell, in units in which a cell is twice `pixels` long.
         let cell = 2 * pixels;

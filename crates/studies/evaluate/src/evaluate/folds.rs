@@ -58,7 +58,7 @@ pub(crate) fn of<'a>(
     }
 }
 
-/// Default folds of a recording with few groups; `None` for any other.
+/// Default folds of a recording with few groups; `None` for any other recording.
 ///
 /// # Errors
 /// Errors of [`of`].

@@ -52,8 +52,8 @@ pub fn task_division(dataset: &Dataset, task: &Task) -> Result<String, EvaluateE
 /// [`CLASSIFIERS`](crate::CLASSIFIERS); poses and depth maps need a model of numbers.
 ///
 /// # Errors
-/// [`EvaluateError`] for an unknown task, a model that does not predict its kind, or a split that separates samples of one cluster. Otherwise errors
-/// of [`evaluate`].
+/// [`EvaluateError`] for an unknown task, a model that cannot predict a task of this kind, or a split that separates samples of one cluster.
+/// Otherwise errors of [`evaluate`].
 pub fn evaluate_task(
     dataset: &Dataset,
     name: &str,

@@ -10,7 +10,7 @@ const LINE: &str = "linearity";
 /// Ratios of units with neighbouring prefixes, such as m and mm.
 const RATIOS: [f64; 2] = [1e-3, 1e3];
 
-/// Greatest factor between an end of the interval of the slope and a ratio.
+/// Greatest factor between an end of the interval of the slope and one of [`RATIOS`].
 const FACTOR: f64 = 1.5;
 
 impl Note {

@@ -38,7 +38,7 @@ pub struct Predicted {
     pub(super) unbounded: Vec<Column>,
     /// Standard deviation of each prediction, if the model predicts it.
     pub(super) deviation: Option<Vec<Column>>,
-    /// Distance of each frame from the training part, if requested and known. The limit is 1.
+    /// Distance of each frame from the training part, if requested and known. A frame at a distance above 1 is unlike the training frames.
     pub(super) distance: Option<Vec<f64>>,
     /// True for each prediction beyond the bounds of the model, by channel; `None` for a channel without bounds.
     pub(super) beyond: Vec<Option<Vec<bool>>>,
@@ -251,7 +251,7 @@ impl Predicted {
         found
     }
 
-    /// Contact point of each row, if all rows name a contact point.
+    /// Contact point of each row, or the group in its place; `None` if a row has neither.
     pub fn points(&self) -> Option<&[String]> {
         self.points.as_deref()
     }

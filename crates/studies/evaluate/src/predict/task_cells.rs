@@ -49,7 +49,7 @@ impl TaskCells {
         self
     }
 
-    /// Cells of the rows `order`.
+    /// Cells of the rows with the indices `order`, in this order.
     pub(super) fn in_order(self, order: &[usize]) -> TaskCells {
         let shares = self.shares.as_ref().map(|_| {
             let rows = order.iter().flat_map(|&row| self.scores(row));

@@ -7,8 +7,8 @@ use taceva_results::Samples;
 use super::is_same;
 use crate::rows::BESIDE_CHANNELS;
 
-/// Description of the first difference between the columns other than channels of `samples` and of `rows` of `dataset`; `None` without a difference.
-/// A table may lack some of these columns.
+/// Description of the first difference between `samples` and `rows` of `dataset` in columns that are not channels; `None` without a difference. A
+/// table may lack some of these columns.
 pub(super) fn other_columns(
     dataset: &Dataset,
     rows: &[usize],

@@ -30,9 +30,9 @@ const OTHER_SUMS: &str = "the rows of this phase do not give the sums of the sta
 /// Greatest number of rows that are read for all states together.
 const MOST_READ: usize = 1 << 28;
 
-/// Scores `samples` by the plans of `states`, each on the rows of the phase that its provenance names. Omits metrics of a state without a
-/// phase, and metrics that read fields absent from the table. Also omits metrics of a state whose sums differ from the sums of its phase in
-/// any bit; [`Recount::has_equal_sums`] is then false.
+/// Scores `samples` by the plans of `states`, each on the rows of the phase that its provenance names. A state without a phase, or with a metric that
+/// reads fields absent from the table, is left out. So is a state whose sums differ from the sums of its phase in any bit;
+/// [`Recount::has_equal_sums`] is then false. The report has the stored scores of the states that are left out.
 ///
 /// # Errors
 /// [`EvaluateError::State`] for a file that is not a state of its plan, for too many states, and for two states of one metric.

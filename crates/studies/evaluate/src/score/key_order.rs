@@ -28,7 +28,7 @@ impl KeyOrder {
         })
     }
 
-    /// True if the keys of a block ascend and are equal in both tables, and the blocks have equal numbers of rows.
+    /// True if the keys of a block ascend and are equal in both tables. Both tables must have the same number of rows in the block.
     pub(super) fn is_kept_in(&self, number: u64, [truth, prediction]: [&CsvTable; 2]) -> bool {
         let rows = 0..truth.rows();
         let keys = truth.text_in(self.columns[0], rows.clone()).map(key_of);

@@ -69,7 +69,7 @@ fn refused(request: &ScoreRequest, problem: String) -> EvaluateError {
     }
 }
 
-/// First text in a column, if the column's first cells are not numbers in both tables.
+/// First filled cell of the column `name`, if it is a text and not a number in both tables.
 fn text_of_both(
     name: &str,
     tables: [&dyn WholeColumns; 2],

@@ -27,17 +27,17 @@ pub struct Signals {
 
 /// Least allowed age of a reading, in s: three periods of a 60 Hz transducer.
 pub const STALE_S: f64 = 0.05;
-/// Number of consecutive readings that a slower transducer may miss.
+/// Number of consecutive readings that a transducer slower than 60 Hz may miss.
 const STALE_READINGS: f64 = 3.0;
 /// Maximum travel of the tip in contact before readings count as stale, in mm.
 const BLIND_MM: f64 = 0.25;
 
-/// Factor on the noise of the force, in standard deviations, that a threshold in the air must exceed.
+/// Least force that counts as contact in the air, in standard deviations of the force noise.
 const AIR_NOISES: f64 = 5.0;
-/// Factor on the noise for a suggested threshold, in standard deviations. It also covers the noise of the zero, and slow drift.
+/// Suggested contact threshold, in standard deviations of the force noise. It also covers the noise of the zero, and slow drift.
 const CALM_NOISES: f64 = 10.0;
 
-/// Factor on the least force in the air for the default greatest change of the zero during a press.
+/// Default of the greatest change of the zero during a press, in multiples of the least force that counts as contact.
 const ZERO_STEPS: f64 = 5.0;
 
 /// Suggested `threshold_N`, in N, for a force with the noise `noise_n`. `None` if `threshold_n` is at least 5 times the noise.

@@ -1,4 +1,4 @@
-//! First held-out presses, repeated in every light scene. In the light scene of calibration, they are equal to the held-out presses.
+//! Presses that repeat the first held-out presses in every light scene. In the light scene of calibration, they are equal to the held-out presses.
 
 use super::{PhaseInputs, spatial};
 use crate::press::Press;

@@ -1,4 +1,4 @@
-//! Collects all metrics, presses, fields and models of a study. Later passes remove and merge.
+//! Collects all metrics, presses, fields and models of a study. Later passes remove or merge some of them.
 
 use taceva_core::{Field, FieldSet};
 use taceva_metrics::{Fact, Metric, catalogue};

@@ -39,7 +39,7 @@ pub(super) fn check(scene: &Scene, plans: &[Plan]) -> Result<(), SceneError> {
 }
 
 impl Plan {
-    /// True if the plan keeps the score of `wanted`, with both axes of a plane.
+    /// True if the plan keeps the score of `wanted`; for a plane such as `Pxy`, the scores of both its channels.
     pub fn scores(&self, wanted: &WantedWidth) -> bool {
         let axes = plane_axes(&wanted.channel);
         let has = |metric: &PlannedMetric, name: &str| {

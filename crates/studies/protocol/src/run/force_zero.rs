@@ -19,7 +19,7 @@ pub struct ForceZero {
     pub after: [Newton; 3],
 }
 
-/// Change of the zero during a press that exceeds the limit. The forces of the press are unknown by this change.
+/// Change of the zero during a press that exceeds the limit. The forces of the press are uncertain by this change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ZeroStep {

@@ -4,10 +4,10 @@ use taceva_core::Wrench;
 
 /// Part of the greatest depth that a tip may travel in one motion before it detects contact, without exceeding a limit.
 const UNFELT_PART: f64 = 0.125;
-/// Multiple of the measured depth up to which the stiffness of a gel is extrapolated.
+/// Longest motion over which the stiffness of a gel is extrapolated, in multiples of the measured depth.
 const KNOWN_DEPTHS: f64 = 2.0;
-/// Factor on the ratio of force to depth that bounds the stiffness. A sphere reaches it at six times the depth (force ∝ depth^1.5). The gel is softer
-/// sideways.
+/// Upper bound of the mean stiffness over a motion, in multiples of force divided by depth. A sphere (force ∝ depth^1.5) has 2.1 on a motion to three
+/// times the depth. The gel is softer sideways.
 const STIFFER: f64 = 3.0;
 
 /// Limits of a gel.
@@ -20,7 +20,7 @@ pub(super) struct Bearing {
     pub(super) threshold_n: f64,
 }
 
-/// Last measured force and its depth.
+/// Last measured normal force and shear force.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Felt {
     pub(super) normal_n: f64,

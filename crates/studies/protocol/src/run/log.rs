@@ -24,8 +24,8 @@ pub trait PressLog {
     /// Any failure to store the frame safely. The run then stops.
     fn untouched(&mut self, frame: &Frame) -> Result<(), SinkError>;
 
-    /// Stores the zero of the transducer of an attempt at `press` that was discarded, because the zero changed too far. The zero of a finished press
-    /// is in [`PressRecord::force_zero`].
+    /// Stores the zero of the transducer in a discarded attempt at `press`, during which the zero changed too far. The zero of a finished press is in
+    /// [`PressRecord::force_zero`].
     ///
     /// # Errors
     /// Any failure to store the zero. The run then stops.

@@ -15,7 +15,8 @@ pub(super) struct Observed {
     pub(super) frame: Option<Frame>,
 }
 
-/// Observes the state after `before`. Reads force and pose before and after the frame, and interpolates both to the time of the frame.
+/// Captures a frame after the reading `before`, reads force and pose again, and interpolates both to the time of the frame. Without a camera, returns
+/// `before`.
 pub(super) fn observe(
     before: Look,
     tip: &mut Tip<'_>,

@@ -76,7 +76,7 @@ pub enum Spot {
 /// Difference between a touch and the touch of an earlier session.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChangedTouch {
-    /// Change of the height of the gel, in mm. Positive values mean a deeper gel.
+    /// Change of the height of the gel, in mm. Positive values mean that the surface is farther from the tip.
     pub height_mm: f64,
     /// Relative change of the force at equal depth.
     pub force_part: f64,

@@ -23,7 +23,7 @@ impl<'a> Oversight<'a> {
         }
     }
 
-    /// Adds a session on the rig of a rig file, with the patience of that file.
+    /// Adds a session on the rig of a rig file, with `patience_s` of that file.
     ///
     /// Before the first press, the operator enables the robot. The tip then moves through the air and touches the gel gently. The touch is compared with the
     /// rig file and with earlier sessions of the recording.

@@ -40,7 +40,7 @@ pub struct ReferenceTouch {
 impl ReferenceTouch {
     /// Maximum apparent displacement of the gel between two sessions, in mm. Arms repeat to about 0.1 mm.
     const HEIGHT_MM: f64 = 0.1;
-    /// Greatest relative change of the stiffness.
+    /// Maximum apparent relative change of the stiffness between two sessions.
     const FORCE_PART: f64 = 0.1;
     /// Coverage factor of the uncertainty of a change.
     const COVERAGE: f64 = 2.0;

@@ -35,7 +35,7 @@ impl Tip<'_> {
         Ok(())
     }
 
-    /// Used after a halt at a limit. Moves straight up by segments until the tip may rest, at most to the height of the first contact. Then resumes the
+    /// Moves straight up by segments after a halt at a limit, until the tip may rest, at most to the height of the first contact. Then resumes the
     /// supervision of the press, with depths measured from `height_mm`.
     pub(super) fn draw_back(&mut self, height_mm: f64) -> Step<()> {
         self.turn_back()?;

@@ -127,7 +127,7 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// Weight of an interruption. A late controller of an emulated rig counts one tenth.
+    /// Weight of an interruption. Late signals of an emulated rig weigh one tenth.
     pub(super) fn weight(&self, cause: &StopCause) -> u32 {
         match self.is_emulated && cause.is_late() {
             true => 1,

@@ -6,13 +6,13 @@ use taceva_core::{Nanometre, Wrench};
 
 use crate::press::Waypoint;
 
-/// Least change of the shear force that is compared, in multiples of the least force in the air.
+/// Least change of the shear force that is compared, in multiples of the least force that counts as contact in the air.
 const FORCE_STEPS: f64 = 5.0;
-/// Least change that is compared, as a part of the greater shear force. Slip and relaxation lower a shear force by less, even during motion along the
-/// force.
+/// Least change that is compared, as a part of the greater of the two shear forces. Slip and relaxation lower a shear force by less, even during
+/// motion along the force.
 const CHANGED_PART: f64 = 0.75;
-/// Minimum part of the force change along the displacement. Friction and an elastic gel push along the displacement. If x and y are swapped, the force is
-/// reversed for every displacement whose components along x and y have opposite signs.
+/// Least cosine of the angle between the force change and the displacement. Friction and an elastic gel push along the displacement. If x and y are
+/// swapped, the force is reversed for every displacement whose components along x and y have opposite signs.
 const ALONG: f64 = -0.25;
 
 /// A waypoint at which the tip rested, with its shear force in N.
@@ -55,8 +55,8 @@ impl Sheared {
         }
     }
 
-    /// Fault if the tip moved sideways at one depth since `earlier`, and most of the shear force changed against this displacement. `air_n` is the least force
-    /// in the air.
+    /// Fault if the tip moved sideways at one depth since `earlier`, and most of the shear force changed against this displacement. `air_n` is the
+    /// least force that counts as contact in the air.
     pub(super) fn fault(&self, earlier: &Sheared, air_n: f64) -> Option<ShearFault> {
         let axes = [0, 1];
         let way_mm =

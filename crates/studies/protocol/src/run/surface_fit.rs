@@ -23,9 +23,9 @@ pub(super) struct Surface {
     pub(super) deviation_mm: f64,
 }
 
-/// Least number of readings: one more than b, c, p, z₀ and the noise.
+/// Least number of readings: one more than the parameters of the fit, including the noise.
 pub(super) const LEAST_READINGS: usize = 6;
-/// Number of parameters besides z₀: b, c and the noise.
+/// Number of parameters that are fitted at each height and exponent: force above the gel, stiffness and noise.
 const PARAMETERS: usize = 3;
 /// Exponents of the force in quarters, with their prior weights: 4 for a flat tip and a skin, 6 for a sphere, 8 for an edge.
 const EXPONENTS: [(u32, f64); 5] = [(4, 2.0), (5, 2.0), (6, 2.0), (7, 0.5), (8, 0.25)];
@@ -119,7 +119,7 @@ struct Centred<'a> {
     readings: &'a [DepthForce],
     count: f64,
     mean_n: f64,
-    /// Sum of the squared differences from the mean, with the least noise, in N².
+    /// Sum of the squared differences from the mean, at least that of the least noise, in N².
     squares: f64,
 }
 
@@ -194,7 +194,7 @@ impl<'a> Centred<'a> {
         }
     }
 
-    /// Sum of the squared residuals of the best b and c ≥ 0 at this height, with the least noise, in N².
+    /// Least sum of the squared residuals of the force law with this height and exponent, at least that of the least noise, in N².
     fn residual(&self, height_mm: f64, quarters: u32) -> f64 {
         let (mut sum, mut square, mut product) = (0.0, 0.0, 0.0);
         for reading in self.readings {

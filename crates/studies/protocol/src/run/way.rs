@@ -73,7 +73,7 @@ pub(super) fn is_straight_up(from: &Pose, to: &Pose) -> bool {
     start.x == end.x && start.y == end.y && end.z <= start.z
 }
 
-/// True if a motion goes into the gel and sideways by at most a hundredth of its length, because links round poses.
+/// True if a motion goes into the gel and sideways by at most a hundredth of its length, because transmitted poses are rounded.
 pub(super) fn is_straight_down(from: &Pose, to: &Pose) -> bool {
     let (start, end) = (&from.position, &to.position);
     let aside_mm = (end.x.0 - start.x.0).hypot(end.y.0 - start.y.0);

@@ -9,7 +9,8 @@ use super::tip::{ANY_FORCE, DEADLINE, Step, Tip};
 
 /// Averaging time of the zero, in s. A zero command of an amplifier would take seconds at every press.
 const LISTEN_S: f64 = 0.25;
-/// Averaging time of the comparison after a press, in s. A change is measured again over [`LISTEN_S`], because a low pass may still hold the force of the gel.
+/// Averaging time of the comparison after a press, in s. A change is measured again over [`LISTEN_S`], because a low-pass filter may still hold the
+/// force of the gel.
 const COMPARE_S: f64 = 0.05;
 /// Least number of readings of a mean, for slow transducers.
 const LEAST_READINGS: u32 = 4;

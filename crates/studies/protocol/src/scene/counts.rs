@@ -136,7 +136,7 @@ table! {
 }
 
 table! {
-    /// First held-out presses, repeated in each light scene.
+    /// The first held-out presses, repeated in each light scene.
     LightSweep {
         /// Number of points.
         points: u32 = 100,

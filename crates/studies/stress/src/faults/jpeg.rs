@@ -24,23 +24,23 @@ pub(super) static FAULT: Fault = Fault {
 const SIDE: usize = 8;
 /// Middle of the 256 levels.
 const MIDDLE: f32 = 128.0;
-/// Brightness and two colours from red, green and blue (ITU-T T.871).
+/// Matrix from red, green and blue to brightness and two colour differences (ITU-T T.871).
 const TO: [[f32; 3]; 3] = [
     [0.299, 0.587, 0.114],
     [-0.168736, -0.331264, 0.5],
     [0.5, -0.418688, -0.081312],
 ];
-/// Red, green and blue from brightness and two colours.
+/// Matrix from brightness and two colour differences to red, green and blue.
 const FROM: [[f32; 3]; 3] = [
     [1.0, 0.0, 1.402],
     [1.0, -0.344136, -0.714136],
     [1.0, 1.772, 0.0],
 ];
 
-/// Numbers of a block, row by row.
+/// Values of a block, row by row.
 type Block = [[f32; SIDE]; SIDE];
 
-/// Steps of brightness (ITU-T T.81, table K.1).
+/// Quantisation steps of brightness (ITU-T T.81, table K.1).
 const BRIGHTNESS: Block = [
     [16.0, 11.0, 10.0, 16.0, 24.0, 40.0, 51.0, 61.0],
     [12.0, 12.0, 14.0, 19.0, 26.0, 58.0, 60.0, 55.0],
@@ -51,7 +51,7 @@ const BRIGHTNESS: Block = [
     [49.0, 64.0, 78.0, 87.0, 103.0, 121.0, 120.0, 101.0],
     [72.0, 92.0, 95.0, 98.0, 112.0, 100.0, 103.0, 99.0],
 ];
-/// Steps of colour (ITU-T T.81, table K.2).
+/// Quantisation steps of colour (ITU-T T.81, table K.2).
 const COLOUR: Block = [
     [17.0, 18.0, 24.0, 47.0, 99.0, 99.0, 99.0, 99.0],
     [18.0, 21.0, 26.0, 66.0, 99.0, 99.0, 99.0, 99.0],
@@ -140,7 +140,7 @@ fn product(numbers: &[f32], weights: &[f32]) -> f32 {
     products.map(|(number, weight)| number * weight).sum()
 }
 
-/// Steps of the coefficients at the quality 100 − `lost`, scaled as by the encoder of the Independent JPEG Group.
+/// Quantisation steps of the coefficients at the quality 100 − `lost`, scaled as by the encoder of the Independent JPEG Group.
 fn steps(table: &Block, lost: f32) -> Block {
     let quality = (100.0 - lost).max(1.0);
     let percent = match quality < 50.0 {
@@ -151,7 +151,7 @@ fn steps(table: &Block, lost: f32) -> Block {
     table.map(|row| row.map(|step| (step * percent / 100.0 + 0.5).floor().clamp(1.0, 255.0)))
 }
 
-/// One plane of numbers.
+/// One plane of a picture: brightness, or a colour difference.
 struct Plane {
     width: usize,
     height: usize,
@@ -159,7 +159,7 @@ struct Plane {
 }
 
 impl Plane {
-    /// The plane with half of its columns: means of two neighbours, as cameras send colour.
+    /// The plane with half of its columns: means of two neighbours, as cameras send colour differences.
     fn halved(&self) -> Plane {
         let rows = self.values.chunks_exact(self.width);
         let pairs = rows.flat_map(|row| row.chunks(2));
@@ -171,7 +171,7 @@ impl Plane {
         }
     }
 
-    /// Rounds the coefficients of each block to `steps`. A block beyond the edge of the plane repeats the pixels at the edge.
+    /// Rounds the coefficients of each block to multiples of `steps`. A block beyond the edge of the plane repeats the pixels at the edge.
     fn compress(&mut self, steps: &Block) {
         let [forward, inverse] = &*WEIGHTS;
         for top in (0..self.height).step_by(SIDE) {

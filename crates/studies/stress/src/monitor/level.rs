@@ -10,7 +10,7 @@ use super::limit::{LEARNT, RUNS, WINDOW};
 
 /// Number of standard errors of the difference of two means that counts as a change.
 const ERRORS: f64 = 6.5;
-/// Least change that counts.
+/// Least stimulus of brightness that counts as a change.
 const LEAST: f64 = 0.1;
 /// Greatest change that one picture contributes, in multiples of the limit. A few outliers are then no change.
 const MOST: f64 = 5.0;

@@ -10,12 +10,12 @@ pub(super) const WINDOW: usize = 30;
 /// Least limit, in multiples of the greatest excess of a run of [`WINDOW`] pictures. This limit exceeds other limits if flicker is slow.
 pub(super) const RUNS: f64 = 3.0;
 
-/// Numbers of pictures that set a limit and exceed it.
+/// Numbers of pictures that decide about the limit and about a change.
 #[derive(Clone, Copy, Debug)]
 struct Rule {
     /// Least number of the newest pictures beyond the limit that shows a change.
     beyond: usize,
-    /// Number of pictures of a run that reach or exceed its excess over the median.
+    /// Number of pictures of a run whose excess over the median is at least the excess of the run.
     reach: usize,
     /// Rank of the limit among [`LEARNT`] pictures, from the greatest number.
     rank: usize,

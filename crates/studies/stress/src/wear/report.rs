@@ -30,7 +30,7 @@ pub struct WearReport {
     pub units: ByChannel<&'static str>,
     /// Gels of the unit, by name.
     pub gels: Vec<GelWear>,
-    /// Limitations of the numbers, as sentences.
+    /// Limitations of the scores, as sentences.
     pub notes: Vec<String>,
 }
 

@@ -7,7 +7,7 @@ use taceva_metrology::curve::{CurveFit, CurveRow, CurveUndefined};
 use crate::estimate::{Estimate, Undefined};
 use crate::wear::report::LimitMet;
 
-/// Share of the distribution below the upper end of an interval.
+/// Share of Student's t distribution below the upper end of a 95 % interval.
 const UPPER: f64 = 0.975;
 /// Coverage of a two-sided interval whose lower end is one-sided at 95 %.
 const ONE_SIDED: f64 = 0.90;

@@ -56,7 +56,7 @@ pub struct KernelBench {
     pub rows_timed: usize,
     /// Number of timed runs of each candidate.
     pub rounds: usize,
-    /// Time to read the columns.
+    /// Time to sum the columns once, as the lower limit of any kernel.
     pub floor: Floor,
     /// One row for each candidate, in the order of the race.
     pub rows: Vec<KernelRow>,
@@ -91,7 +91,7 @@ pub struct KernelRow {
     /// Nanoseconds for each pair of values, processor time of the thread; `None` if the system does not report it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thread_ns_per_pair: Option<Spread>,
-    /// Best time relative to the best time of the floor.
+    /// Best time relative to the best time of [`Floor`], which only sums the columns.
     pub times_floor: f64,
     /// Least number of correct digits over all scores and inputs.
     pub digits_min: f64,

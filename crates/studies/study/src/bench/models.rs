@@ -94,7 +94,8 @@ pub struct ModelTrials {
     pub rows: Vec<ModelTrial>,
 }
 
-/// Fits and scores every model of `race` in turn on the same split of `dataset`; calls `rows` after each model.
+/// Fits and scores every model of `race` on the same split of `dataset`. Further rounds repeat only the fits, and each model keeps its least
+/// processor time.
 ///
 /// A model that cannot be fitted on this recording becomes a row with the reason.
 ///

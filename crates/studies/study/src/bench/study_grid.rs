@@ -30,7 +30,8 @@ pub struct StudyGrid {
     pub points: Vec<u32>,
     /// Numbers of folds; `None` for one test part.
     pub folds: Vec<Option<u32>>,
-    /// Names of models. The scene's settings apply to its own model, and default settings to others. Its split applies to all.
+    /// Names of models. The settings of the scene apply only to the scene's own model, and its split to every model. Other models have default
+    /// settings.
     pub models: Vec<String>,
 }
 
@@ -57,7 +58,7 @@ pub struct StudyEntry {
 }
 
 impl StudyGrid {
-    /// Plans the scene in `text` with each combination and the first seed, models within folds within points.
+    /// Plans the scene in `text` with each combination and the first seed, ordered by points, then folds, then models.
     ///
     /// # Errors
     /// [`StudyError`] for an invalid scene or combination, or an unknown study or model. Also for a scene that does not press on the simulated bench.

@@ -174,7 +174,7 @@ impl RunFolder {
         is_untouched && fs::remove_dir_all(&self.path).is_ok()
     }
 
-    /// First free path `<parent>/<scene>-<number>`, counted from 1. For `Resume` and `Replace`, the path with the number before.
+    /// First free path `<parent>/<scene>-<number>`, counted from 1. For `Resume` and `Replace`, the path of the number before the first free number.
     pub fn numbered(parent: &Path, scene: &str, existing: Existing) -> PathBuf {
         let path = |number: u64| parent.join(format!("{}-{number}", slug(scene)));
         let free = (1..).find(|number| !path(*number).exists()).unwrap_or(1);

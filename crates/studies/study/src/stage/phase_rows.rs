@@ -166,7 +166,7 @@ impl<'a> PhaseRows<'a> {
         Divided::within(dataset, &rows, Some(split), request.seed)
     }
 
-    /// The only unit measured outside the map of surfaces, with a note for metrics that compare units. `None` if the study has no other unit, no metric
+    /// The only unit measured outside the surface map, with a note for metrics that compare units. `None` if the study has no other unit, no metric
     /// compares units, or several units were measured.
     pub(super) fn measured_unit(&self) -> Option<(String, Note)> {
         let units = self.dataset.table().as_text(Field::UnitId.name())?;

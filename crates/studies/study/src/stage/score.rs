@@ -294,7 +294,7 @@ impl Rows for Samples<'_> {
     }
 }
 
-/// Metrics that the plan skips. A [`SkipReason`] gives a skip in the report; any other reason gives a note.
+/// Requested metrics that the plan skips. A [`SkipReason`] gives a skip in the report; any other reason gives a note.
 fn left_out(study: &PlannedStudy) -> (Vec<Skipped>, Vec<Note>) {
     let (mut skipped, mut notes) = (Vec::new(), Vec::new());
     for skip in &study.plan.skipped {

@@ -6,7 +6,7 @@ use taceva_report::{Cell, Column, FormattedValue, Table};
 use super::{Choice, ends, number};
 use crate::analysis::Group;
 
-/// Configurations with results but without a validation error, each once.
+/// Configurations with a result that has no validation error, each once.
 fn without_validation(groups: &[Group<'_>]) -> Vec<String> {
     let mut silent: Vec<String> = Vec::new();
     for group in groups {
@@ -19,7 +19,7 @@ fn without_validation(groups: &[Group<'_>]) -> Vec<String> {
     silent
 }
 
-/// Question that the choice for a channel answers.
+/// Name of the quantity that `channel` measures; empty for an unknown channel.
 fn question(channel: &str) -> &'static str {
     match channel {
         "Pz" => "depth",

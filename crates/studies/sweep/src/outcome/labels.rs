@@ -9,7 +9,7 @@ use crate::error::SweepError;
 use crate::result::TaskResult;
 use crate::task::Task;
 
-/// Scores the labels called `name`, and writes the scores, their states and the result of `task`. All files have the bytes of
+/// Scores the labels called `name`, and writes the scores, their states and the result of `task`. Scores and states have the bytes of
 /// `taceva evaluate --task`.
 ///
 /// # Errors

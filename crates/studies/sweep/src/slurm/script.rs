@@ -17,7 +17,7 @@ pub(super) struct Script<'a> {
 }
 
 impl Script<'_> {
-    /// Script of a job array. Each job runs the tasks in one line of its block file.
+    /// Script of a job array. Each job runs the tasks that one line of the file `NAME.blocks` lists.
     pub(super) fn array(&self, name: &str, jobs: usize, gres: Option<&str>) -> String {
         let most = self
             .spec

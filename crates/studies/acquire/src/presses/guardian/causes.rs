@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Cause of a late turn, reading or halt.
+/// Cause of a late turn of a guard thread, a late reading or a late halt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cause {
     /// The kernel woke the thread late, or kept it from a processor.

@@ -11,9 +11,9 @@ use super::thread_facts::{ProcessorQueue, ThreadTimes};
 
 /// Longest call that is in time, s.
 const CALL_S: f64 = 0.02;
-/// Longest time from the decision to rest that is in time, s, as every driver promises.
+/// Longest time from the decision to halt until rest that is in time, s, as every driver promises.
 const REST_S: f64 = 0.05;
-/// Time after the decision during which poses are read, s.
+/// Time after the decision to halt during which poses are read, s.
 const FOLLOWED_S: f64 = 0.2;
 /// Greatest distance between two reports of a tip at rest, mm; the noise of a pose replaces a smaller limit.
 const RESTS_MM: f64 = 1e-3;
@@ -44,9 +44,9 @@ pub(super) struct HaltCall {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Halted {
     pub(super) call: HaltCall,
-    /// Time from the decision to the first report of a tip at rest, s; `None` if no report showed it.
+    /// Time from the decision to halt until the first report of a tip at rest, s; `None` if no report showed it.
     pub(super) rest_s: Option<f64>,
-    /// Time from the decision to the last report that was followed by further motion, s; 0 without such a report.
+    /// Time from the decision to halt until the last report that was followed by further motion, s; 0 without such a report.
     pub(super) moved_s: f64,
 }
 
@@ -77,12 +77,12 @@ pub(super) struct HaltFollower {
     /// Noise of a pose at rest, mm.
     slack_mm: f64,
     call: Option<HaltCall>,
-    /// Last pose after the decision, and its time in s; `None` before this pose.
+    /// Last pose after the decision to halt, and its time in s; `None` before this pose.
     seen: Option<(Pose, f64)>,
     moved_s: f64,
     /// True from the first halt until the robot may move again, or its motion ends. Each later reading halts again.
     is_repeated: bool,
-    /// True if the robot was held in the last turn.
+    /// True if the robot was held in the last turn of the guard thread.
     was_held: bool,
 }
 
@@ -164,8 +164,8 @@ impl HaltFollower {
         }
     }
 
-    /// Processes one turn: a halt since the last turn, the presence of a motion, and the state of the robot. A robot that may move again has no rest
-    /// time. Returns a halt whose end is known or no longer awaited; `None` otherwise.
+    /// Processes one turn of the guard thread: a halt since the last turn, the presence of a motion, and the state of the robot. A robot that may
+    /// move again has no rest time. Returns a halt whose end is known or no longer awaited; `None` otherwise.
     pub(super) fn turn(
         &mut self,
         call: Option<HaltCall>,
@@ -198,7 +198,7 @@ impl HaltFollower {
         })
     }
 
-    /// Time from the decision to the previous report, s, if the tip has not moved since that report; `None` otherwise.
+    /// Time from the decision to halt until the previous report, s, if the tip has not moved since that report; `None` otherwise.
     fn rest_s(&mut self, pose: &Pose, valid_s: f64, decided_s: f64) -> Option<f64> {
         if let Some((seen, seen_s)) = self.seen {
             if valid_s <= seen_s {

@@ -78,7 +78,7 @@ pub(super) struct Reader {
     requests: Receiver<Request>,
     /// Time of the last reading.
     heard: Instant,
-    /// True if the last turn ended during a motion.
+    /// True if the last turn of the reader thread ended during a motion.
     was_under_way: bool,
 }
 

@@ -5,16 +5,16 @@ use super::turn::{Late, Turn};
 
 /// Maximum number of lines about single misses. A busy machine may have hundreds of misses.
 const MOST_LINES: u32 = 10;
-/// Wait before a stale reading is attributed to the device, s. Until then, a late turn of the guard may still explain it.
+/// Wait before a stale reading is attributed to the device, s. Until then, a late turn of the guard thread may still explain it.
 const SETTLED_S: f64 = 0.2;
 
-/// Numbers of misses (late turns and stale readings) of a session, by cause.
+/// Numbers of misses (late turns of guard threads, and stale readings) of a session, by cause.
 #[derive(Debug, Default)]
 pub(super) struct Misses {
     counts: CauseCounts,
     /// Number of misses. The log has a line for each of the first `MOST_LINES`.
     lines: u32,
-    /// End of the last late turn, s; `None` before the first.
+    /// End of the last late turn of a guard thread, s; `None` before the first.
     last_late_s: Option<f64>,
     /// Stale reading whose cause is not yet known, if any.
     stale: Option<Stale>,

@@ -67,7 +67,7 @@ pub(super) fn policy() -> &'static str {
 
 /// Policy in `stat`. The name of the thread, in brackets, may have blanks.
 fn policy_of(stat: &str) -> &'static str {
-    /// Number of the field, and number of the first field after the name.
+    /// Number of the field with the policy in `stat`, and number of the first field after the name.
     const FIELD: usize = 41;
     const FIRST: usize = 3;
     let behind = stat.rsplit_once(')').map_or("", |(_, behind)| behind);

@@ -8,8 +8,8 @@ use crate::scene::WearLoad;
 use crate::text::{SceneError, SceneProblem};
 
 impl Gather<'_> {
-    /// Rejects a force of `[protocol.wear]` beyond `limits`, a travel that leaves `footprint`, and a travel whose shear force `axes` does not
-    /// contain.
+    /// Rejects a force of `[protocol.wear]` beyond `limits`, a travel that leaves `footprint`, and a travel whose shear force the transducer does not
+    /// measure along `axes`.
     pub(super) fn wear(
         &self,
         limits: &RigLimits,

@@ -9,10 +9,11 @@ use super::moment::Moment;
 const LIVE_FRAMES: u32 = 8;
 /// Number of changed frames of the untouched gel after which a camera counts as noisy. No two frames of a noisy camera are equal.
 const NOISY_FRAMES: u32 = 4;
-/// Number of repeats of one frame after which a camera with fewer changes counts as frozen. A camera counts as frozen only if an earlier force change
-/// of this size changed the frame.
+/// Number of repeats of one frame after which a camera with fewer than [`LIVE_FRAMES`] changed frames counts as frozen. An earlier force change of
+/// similar size must have changed a frame.
 const STUCK_REPEATS: u32 = 3;
-/// Fraction of the greatest earlier force change. A larger force change must change the frame. Forces of presses to one depth vary.
+/// Part of the greatest force change that changed a frame. A force change of at least this part must change the frame too, because forces of presses
+/// to one depth vary.
 const SHOWN_PART: f64 = 0.75;
 /// Numbers of repeated older frames after which a noisy camera, and any other camera, counts as frozen.
 const NOISY_RETURNS: u32 = 3;

@@ -6,7 +6,7 @@ use crate::run::load_limit::Felt;
 use crate::run::tip::Tip;
 use crate::run::way::distance;
 
-/// Least change of the force that changes the frame of any camera, in multiples of the least force in the air.
+/// Least change of the force that changes the frame of any camera, in multiples of the least force that counts as contact in the air.
 const FORCE_STEPS: f64 = 5.0;
 /// Least displacement of the tip that changes the frame of a camera without noise, in mm. A gel at rest may creep under the tip unseen.
 const MOVED_MM: f64 = 0.05;

@@ -10,7 +10,8 @@ const NAMES: [&str; 3] = ["x", "y", "z"];
 pub(super) struct Felt {
     /// Force of the press along +z.
     pub(super) press: [f64; 3],
-    /// Half the difference between a push to +x (+y) and its opposite. `None` if noise hides it or the transducer does not measure shear.
+    /// Half the difference between the forces of a push to +x (+y) and of its opposite. `None` if noise hides it or the transducer does not measure
+    /// shear.
     pub(super) pushes: [Option<[f64; 3]>; 2],
 }
 

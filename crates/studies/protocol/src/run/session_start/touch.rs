@@ -30,7 +30,7 @@ const DEPTH_PART: f64 = 0.5;
 /// with the height of the contact. Taps use a greater fraction.
 const REFERENCE_MM: f64 = 0.3;
 const REFERENCE_PART: f64 = 0.3;
-/// Greatest ratio of the force slope to force divided by depth: 1.5 for a ball (Hertz).
+/// Greatest ratio of the slope of force over depth to force divided by depth: 1.5 for a ball (Hertz).
 const SLOPE: f64 = 1.5;
 /// Sideways push to each side, in mm.
 const PUSH_MM: f64 = 0.2;
@@ -238,7 +238,7 @@ impl Run<'_> {
 }
 
 impl Tip<'_> {
-    /// Descends by steps until the force exceeds the threshold along any axis. Returns the height of contact, interpolated between the last step
+    /// Descends by steps until the magnitude of the force reaches the threshold. Returns the height of contact, interpolated between the last step
     /// below the threshold and the first step above. `None` at the end of the search.
     fn feel_down(&mut self, threshold_n: f64) -> Step<Option<Surface>> {
         self.watch(MotionStage::Search);

@@ -119,7 +119,7 @@ impl Check<'_> {
         })
     }
 
-    /// Checks that the split of `model` divides the samples of a fit, and only once.
+    /// Rejects a split beside a fitted model, which has its own split, and a split beside folds.
     fn split(&self, model: &ModelSpec) -> Checked {
         let Some(split) = &model.split else {
             return Ok(());

@@ -70,7 +70,7 @@ impl RunFolder {
         Ok(true)
     }
 
-    /// Text of the stored plans, for comparison with `scene`.
+    /// Text of the plans of `scene`, for comparison with the stored plans.
     pub(super) fn plans_of(&self, scene: &PlannedScene) -> Result<String, StudyError> {
         serde_json::to_string(scene).map_err(|error| self.refused(error.to_string()))
     }

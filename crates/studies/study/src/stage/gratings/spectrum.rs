@@ -9,11 +9,11 @@ use crate::classifier::ModelClassifier;
 use taceva_evaluate::EvaluateError;
 use taceva_evaluate::Work;
 
-/// Limit on the memory of planes stored together, in bytes. Frames are decoded twice if their planes need more.
+/// Limit on the memory of Fourier planes stored together, in bytes. Frames are decoded twice if their planes need more.
 const HELD_BYTES: u64 = 512 << 20;
 
-/// Number of times the frames of `presses` presses of `dataset` are decoded. One pass is enough if all planes fit in memory; otherwise a first pass computes
-/// the mean.
+/// Number of times the frames of `presses` presses of `dataset` are decoded. One pass is enough if all Fourier planes fit in memory; otherwise a
+/// first pass computes the mean.
 pub(super) fn times_decoded(dataset: &Dataset, presses: usize) -> u64 {
     let info = dataset.header().frames.as_ref().map(|frames| frames.info);
     let plane = info.map_or(0, |info| RadialSpectrum::new(info).plane_bytes());
@@ -127,7 +127,7 @@ impl<'a> Pictures<'a> {
         Ok(seen)
     }
 
-    /// Sum and number of the planes outside each fold; calls `keep` once with each plane.
+    /// Sum and number of the Fourier planes outside each fold; calls `keep` once with each plane.
     fn backgrounds(
         &self,
         mut keep: impl FnMut(FourierPlane),
