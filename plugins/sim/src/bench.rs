@@ -133,7 +133,7 @@ impl Bench {
         }
     }
 
-    /// Pose of a board on the gel in a press: turned by up to 23° and shifted by up to 1 mm.
+    /// Pose of a board on the gel in a press: turned by up to 23° and shifted by up to 1 mm along each of x and y.
     pub fn grating_pose(&self, press: u64) -> GratingPose {
         let stream = self.random.stream(Purpose::GratingPose, press);
         GratingPose {

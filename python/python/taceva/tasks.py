@@ -114,7 +114,7 @@ def score(
     threshold
         The positive class is predicted if its score is above this number.
     debounce
-        The positive class is predicted from this number of positive frames in a row on.
+        Number of consecutive positive frames from which on the positive class is predicted.
     thresholds
         Thresholds between classes of a pose, as decimals: ``{"t": ["0.1", "0.5"], "r": ["0.2", "1"]}``, in mm and degrees.
     name

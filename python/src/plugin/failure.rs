@@ -93,7 +93,7 @@ pub(super) fn words(py: Python<'_>, error: &PyErr) -> String {
     words_within(py, error, ANSWER_MAX)
 }
 
-/// The same line, shortened to the size of an error in the interface.
+/// As [`words`], shortened to the size of an error in the interface.
 pub(super) fn short_words(py: Python<'_>, error: &PyErr) -> String {
     words_within(py, error, ERROR_MAX)
 }
