@@ -144,8 +144,8 @@ impl Sums {
         })
     }
 
-    /// Adds rows. Returns false if a number is not finite, unless `allows_invalid`, and then adds no row. With `apart`, such a failed call may add
-    /// some rows, and the caller discards the sums.
+    /// Adds rows. Unless `allows_invalid`, a number that is not finite makes the call return false without adding a row. With `apart`, such a call
+    /// may add some rows, and the caller discards the sums.
     #[expect(clippy::too_many_arguments, reason = "what one row carries")]
     fn update(
         &self,

@@ -63,7 +63,7 @@ pub(crate) enum Of {
 }
 
 impl Of {
-    /// Check of the bare table of this subject.
+    /// Creates a check that calls the function table of this subject directly.
     const fn check(self, name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Check {
         Check {
             name,
@@ -73,7 +73,7 @@ impl Of {
     }
 }
 
-/// Test function of a check. It uses a bare table, or an open device through the interface of its kind.
+/// Test function of a check. The function calls a function table directly, or an open device through the interface of its kind.
 #[derive(Clone, Copy)]
 pub(crate) enum Test {
     Table(fn(&Subject) -> Result<(), Unmet>),

@@ -346,7 +346,7 @@ fn facts<'a>(tried: &'a Subject<'_>) -> Result<&'a RobotFacts, Unmet> {
     facts.ok_or_else(|| broken("does not declare itself a robot"))
 }
 
-/// Fails unless the two poses agree within six standard deviations of a difference, or 0.1 mm without a declared repeatability.
+/// Fails unless the positions of the two poses agree within six standard deviations of a difference, or 0.1 mm without a declared repeatability.
 fn near(tried: &Subject<'_>, found: &Pose, expected: &Pose) -> Result<(), Unmet> {
     const UNKNOWN_MM: f64 = 0.1;
     const ROUNDING_MM: f64 = 1e-6;

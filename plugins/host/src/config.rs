@@ -38,7 +38,8 @@ pub struct PluginConfig {
     /// Folders whose plugins have priority over other plugins with the same id.
     #[serde(default)]
     pub prefer: Vec<PathBuf>,
-    /// Python interpreters whose environments are searched for plugins. The first interpreter also runs Python plugins from other folders.
+    /// Python interpreters whose environments are searched for plugins. The first interpreter also runs Python plugins that are found outside these
+    /// environments.
     #[serde(default)]
     pub python: Vec<PathBuf>,
     /// Needs of each plugin that the user allows.

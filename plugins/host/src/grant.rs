@@ -75,7 +75,7 @@ impl Withheld {
         self.remedy().map(|remedy| format!("{why}; {remedy}"))
     }
 
-    /// Remedy for a permission error; `None` if no permission is withheld.
+    /// Remedy for a permission error; `None` if every need is allowed, unless a confined plugin declares no needs.
     fn remedy(&self) -> Option<String> {
         match (self.needs.is_empty(), self.asks_for_nothing) {
             (false, _) => Some(self.to_string()),

@@ -247,7 +247,7 @@ impl PluginHost {
         }
     }
 
-    /// Releases the libraries of plugin `id`, or the library with that digest, from quarantine. Returns their number.
+    /// Releases the libraries of the plugin `id`, or the library whose digest is `id`, from quarantine. Returns their number.
     ///
     /// # Errors
     /// If the quarantine cannot be read or changed.

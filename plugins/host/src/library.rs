@@ -89,7 +89,7 @@ impl Library {
         Library::of_symbol(symbol, image.path(), manifest, log)
     }
 
-    /// Compares and initialises the library with the table at `symbol`.
+    /// Compares the library whose table is at `symbol` with `manifest`, and initialises the library.
     fn of_symbol(
         symbol: *const abi::Plugin,
         path: &std::path::Path,

@@ -94,14 +94,14 @@ pub struct Plugins {
 }
 
 impl Plugins {
-    /// Searches `path`. Plugins with the same id are all rejected, unless `prefer` lists the folder of one plugin or the command line names exactly
-    /// one plugin ([`Place::Given`]).
+    /// Searches `path`. Plugins with the same id are all rejected, unless `prefer` lists the folder of one of them, or a folder of the command line
+    /// ([`Place::Given`]) contains exactly one of them.
     pub fn search(path: SearchPath, prefer: &[PathBuf]) -> Plugins {
         Plugins::search_with(path, prefer, &[])
     }
 
-    /// As [`search`](Plugins::search), and also searches the environments of `interpreters`. The first interpreter that answers runs Python plugins
-    /// from other places.
+    /// As [`search`](Plugins::search), and also searches the environments of `interpreters`. The first interpreter that answers runs the Python
+    /// plugins that are found outside these environments.
     pub fn search_with(path: SearchPath, prefer: &[PathBuf], interpreters: &[PathBuf]) -> Plugins {
         let mut searching = Searching::default();
         for interpreter in interpreters {

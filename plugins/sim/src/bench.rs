@@ -133,7 +133,7 @@ impl Bench {
         }
     }
 
-    /// Pose of a board on the gel in a press: turned by up to 23° and shifted by up to 1 mm.
+    /// Pose of a board on the gel in a press: turned by up to 23° and shifted by up to 1 mm along each of x and y.
     pub fn grating_pose(&self, press: u64) -> GratingPose {
         let stream = self.random.stream(Purpose::GratingPose, press);
         GratingPose {
@@ -204,7 +204,7 @@ impl Bench {
         contact
     }
 
-    /// Reduces an indentation until the force limit holds. Returns true if a reduction was needed.
+    /// Reduces the depths of an indentation until the force limit holds. Returns true if the limit stops the press above its depth.
     fn limit(&self, indentation: &mut Indentation) -> bool {
         let limit_n = self.parameters.probing.force_max_n;
         let loading = |depth_mm: f64| Indentation {

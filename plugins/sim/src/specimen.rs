@@ -51,7 +51,7 @@ pub struct Grating {
     spacing: Nanometre,
 }
 
-/// Finest and coarsest spacing, and the step between boards, nm.
+/// Finest spacing, nm; the next constants are the coarsest spacing and the step between boards.
 const SPACING_MIN: i64 = 250_000;
 const SPACING_MAX: i64 = 1_750_000;
 const SPACING_STEP: i64 = 50_000;

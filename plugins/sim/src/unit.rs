@@ -46,7 +46,7 @@ const BLISTERS: usize = 2;
 const SAG_STATED_MM: [f64; 2] = [7.0, 9.0];
 /// Bound of the rounding error of sums of a few lengths.
 const ROUNDING_MM: f64 = 1e-9;
-/// Start of the edge softening, as a fraction of the reach, and the margin of the gel beyond the picture.
+/// Start of the edge softening, as a fraction of the reach; the next constant is the margin of the gel beyond the picture.
 const EDGE_BEGINS: f64 = 0.75;
 const EDGE_MARGIN_MM: f64 = 1.5;
 
@@ -180,12 +180,12 @@ struct Waves {
 }
 
 const WAVES: usize = 8;
-/// Maximum wave numbers along x and y, radians per millimetre.
+/// Maximum wave number of the stiffness along each axis, radians per millimetre; the next constant is that of the gap.
 const STIFFNESS_WAVES: f64 = 0.5;
 const GAP_WAVES: f64 = 1.0;
 
 impl Waves {
-    /// Maximum possible value: the sum of eight cosines of 1, halved.
+    /// Upper bound of the field: half the sum of [`WAVES`] cosines of 1.
     const GREATEST: f64 = 0.5 * WAVES as f64;
 
     fn new(stream: Stream, first: u64, wave_number_max: f64) -> Waves {

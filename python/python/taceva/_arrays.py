@@ -108,7 +108,7 @@ def refuse_invalid(
     order: npt.NDArray[np.intp] | None,
     remedy: str = "allow_invalid=True counts such rows and leaves them out",
 ) -> None:
-    """Reject NaN and infinite numbers in the first of ``tables`` with any. ``order`` has the rows of the prediction as they were given."""
+    """Reject NaN and infinite numbers in the first of ``tables`` with any. ``order`` has the given row of the prediction for each row of the truth."""
     for name, table in tables.items():
         found, count = None, 0
         for first in range(0, len(table), BLOCK_ROWS):

@@ -364,7 +364,7 @@ def aligned(own: Any, other: Any, what: str, remedy: str) -> npt.NDArray[np.intp
 
 
 def _nearly(name: Any, others: Sequence[Any]) -> str:
-    """Return a remark on the first other name that differs only in blanks or case, or an empty text."""
+    """Return a remark on the first of ``others`` that differs from ``name`` only in blanks or case, or an empty text."""
 
     def bare(text: str) -> str:
         return "".join(text.split()).lower()
@@ -374,7 +374,7 @@ def _nearly(name: Any, others: Sequence[Any]) -> str:
 
 
 def _hashable(name: Any) -> Any:
-    """Return a whole number in decimal form as an integer, because pandas converts between both forms."""
+    """Return a whole ``float`` as an ``int``: pandas may store the same row names in either type."""
     return int(name) if isinstance(name, float) and name.is_integer() else name
 
 

@@ -46,7 +46,8 @@ def score_function(
     """Return the value of ``function`` for truth and prediction by channel, with an interval by contact point.
 
     The 95 % interval is BCa. The function is called again for ``draws`` samples of whole points, drawn with replacement. It is also called once
-    without each point, or without each two-hundredth of the points. The same ``seed`` gives the same interval. Fewer than six points give no interval.
+    without each point; more than 200 points are left out in 200 groups. The same ``seed`` gives the same interval. Fewer than six points give
+    no interval.
 
     Parameters
     ----------

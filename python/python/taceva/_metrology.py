@@ -381,7 +381,7 @@ class _Table:
         self._columns = columns
 
     def names(self, given: Any, name: str) -> list[str]:
-        """Return names of columns for ``given``: its own, or ``name``, under which an array is added."""
+        """Return the names of the columns ``given``. An array is added to the table as the column ``name``."""
         if self._columns is None:
             if isinstance(given, str):
                 return [given]
@@ -480,7 +480,7 @@ def _options(**given: Any) -> list[str]:
 
 
 def _made(kind: Callable[[Mapping[str, Any]], _Made], words: list[str], own: Mapping[str, str], key: str) -> _Made:
-    """Return the result of a command. ``own`` has names for files that the user never sees, ``key`` the field in which results differ."""
+    """Return the result of a command. In errors, ``own`` replaces paths of temporary files by names; ``key`` tells several results apart."""
     try:
         found = _taceva.metrology(["taceva", *words])
     except ValueError as error:

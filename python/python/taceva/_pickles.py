@@ -7,7 +7,7 @@ PICKLE_VERSION = 4
 
 
 def require_version(found: object) -> None:
-    """Reject a pickle of another version of this package.
+    """Reject a pickle of any version but ``PICKLE_VERSION``.
 
     >>> require_version(99)
     Traceback (most recent call last):

@@ -29,7 +29,7 @@ class Samples:
 
     @staticmethod
     def of(channels: Sequence[str], truth: Any, prediction: Any, points: Any, names: Any) -> Samples:
-        """Return a copy of these rows."""
+        """Return a copy of the rows of ``truth`` and ``prediction``, with their points and names."""
         tables = [np.array(table, dtype=np.float64).reshape(len(table), len(channels)) for table in (truth, prediction)]
         listed = [None if words is None else np.asarray(words).tolist() for words in (points, names)]
         return Samples(tuple(channels), tables[0], tables[1], listed[0], listed[1])

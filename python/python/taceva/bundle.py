@@ -80,7 +80,7 @@ def verify(
     Returns
     -------
     Verification
-        Its ``is_verified`` is False for a damaged bundle too, whose ``to_dict()["damage"]`` names the files.
+        ``is_verified`` is False for a damaged bundle too. ``to_dict()["damage"]`` then names the files.
 
     Raises
     ------

@@ -41,7 +41,7 @@ def _extension() -> object:
 
 
 def _bound_recursion() -> None:
-    """Limit the recursion depth, so that endless recursion raises an error before it fills the stack or the memory."""
+    """Bound the limit that ``sys.setrecursionlimit`` sets, so that endless recursion raises an error before it fills the stack or the memory."""
     given = sys.setrecursionlimit
 
     def bounded(limit: int) -> None:
@@ -51,7 +51,7 @@ def _bound_recursion() -> None:
 
 
 def _say_what_is_not_there() -> None:
-    """Declare that programs cannot be run and files cannot be written, for libraries that would otherwise try."""
+    """Empty ``PATH`` and fix the temporary folder, for libraries that would otherwise search for programs or write files."""
     import os
     import tempfile
 

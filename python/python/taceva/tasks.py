@@ -114,7 +114,7 @@ def score(
     threshold
         The positive class is predicted if its score is above this number.
     debounce
-        The positive class is predicted from this number of positive frames in a row on.
+        Number of consecutive positive frames from which on the positive class is predicted.
     thresholds
         Thresholds between classes of a pose, as decimals: ``{"t": ["0.1", "0.5"], "r": ["0.2", "1"]}``, in mm and degrees.
     name
@@ -283,7 +283,7 @@ def compare(
 
 
 def _stored(results: Sequence[Any], folder: Path) -> tuple[list[str], dict[str, str]]:
-    """Return paths of states, and words for those that the user never sees."""
+    """Return paths of states, and the names that errors give to the paths of temporary files."""
     paths: list[str] = []
     own: dict[str, str] = {}
     for at, result in enumerate(results, start=1):
@@ -298,7 +298,7 @@ def _stored(results: Sequence[Any], folder: Path) -> tuple[list[str], dict[str, 
 
 
 def _called(function: Any, arguments: tuple[Any, ...], own: Mapping[str, str]) -> dict[str, Any]:
-    """Call ``function``; errors name the user's arguments in place of the files that the user never sees."""
+    """Call ``function``; errors name the user's arguments in place of temporary files."""
     try:
         return dict(function(*arguments))
     except ValueError as error:

@@ -163,7 +163,7 @@ impl Fitted {
         Ok(table.row_by_row(py))
     }
 
-    /// Adds to `error` about predictions the line that defines `predict`, because that call has already returned.
+    /// Adds the file and line of `predict` to an `error` about its predictions, because the traceback no longer contains the call.
     fn at_predict(&self, py: Python<'_>, error: PyErr) -> PyErr {
         let line = || -> PyResult<String> {
             let code = self

@@ -48,7 +48,7 @@ fn is_of_value(py: Python<'_>, error: &PyErr) -> bool {
     error.is_instance_of::<PyValueError>(py) || error.is_instance_of::<PyTypeError>(py)
 }
 
-/// Kind of an exception: its own attribute, or the kind of its class.
+/// Kind of an exception: its attribute `kind`, or else the kind of its `errno` or of its class.
 pub(super) fn kind(py: Python<'_>, error: &PyErr) -> ErrorKind {
     let named = error.value(py).getattr("kind").ok();
     let named = named.and_then(|kind| kind.extract::<String>().ok());
@@ -93,7 +93,7 @@ pub(super) fn words(py: Python<'_>, error: &PyErr) -> String {
     words_within(py, error, ANSWER_MAX)
 }
 
-/// The same line, shortened to the size of an error in the interface.
+/// As [`words`], shortened to the size of an error in the interface.
 pub(super) fn short_words(py: Python<'_>, error: &PyErr) -> String {
     words_within(py, error, ERROR_MAX)
 }
@@ -138,9 +138,9 @@ fn words_within(py: Python<'_>, error: &PyErr, room: usize) -> String {
     said + &behind
 }
 
-/// Shortens `text` to `room` bytes: keeps beginning and end, and states the number of omitted bytes between them.
+/// Shortens `text` to `room` bytes: keeps the beginning and the end, and states the number of omitted characters between them.
 fn shortened(text: &str, room: usize) -> String {
-    /// Greatest size of the text that states the omitted bytes, in bytes.
+    /// Greatest size of the text that states the number of omitted characters, in bytes.
     const BETWEEN: usize = 48;
     if text.len() <= room || room < 2 * BETWEEN {
         return text.to_owned();
@@ -173,7 +173,8 @@ fn library(message: &str) -> &str {
     path.rsplit('/').next().unwrap_or(path)
 }
 
-/// Message of a syntax error, and the line that could not be read. The text of the error has the name of the file without its folder.
+/// Message of a syntax error, and the file and line that could not be parsed. The text of the error itself has the name of the file without its
+/// folder.
 fn unread_line(py: Python<'_>, error: &PyErr) -> Option<(String, String)> {
     if !error.is_instance_of::<PySyntaxError>(py) {
         return None;

@@ -43,7 +43,7 @@ impl Object {
         self.called(doing, Deadline::new(deadline, ends), work)
     }
 
-    /// As [`call`](Object::call), for a motion. A halt ends waits for its deadline.
+    /// As [`call`](Object::call), for a motion. A halt ends a pending `rest` of the deadline that `work` receives.
     pub(super) fn call_until_halted<T>(
         &self,
         doing: &'static str,
@@ -88,7 +88,7 @@ impl Object {
         })
     }
 
-    /// Handle that interrupts a call during a wait by its deadline.
+    /// Handle that interrupts a call while it waits in `rest` of its deadline.
     pub(super) fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         self.interruption.handle()
     }

@@ -60,7 +60,7 @@ fn array(py: Python<'_>, frame: FrameInfo) -> PyResult<(Py<PyAny>, PyBuffer<u8>)
     Ok((array.unbind(), PyBuffer::get(&bytes)?))
 }
 
-/// Time of a frame or reading: seconds on the host clock, or a pair with the time of receipt; the current time for `None`.
+/// Time of a frame or reading: seconds on the host clock, or a pair of this time and the time of receipt.
 pub(super) fn stamp(said: &Bound<'_, PyAny>, method: &str) -> PyResult<Stamp> {
     let seconds = |number: f64| {
         Duration::try_from_secs_f64(number).map_err(|_| {

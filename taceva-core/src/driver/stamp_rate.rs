@@ -1,11 +1,11 @@
-//! Advance of the stamps of a device beside the clock of its host, which shows stamps in another unit.
+//! Rate of the stamps of a device on the clock of its host. This rate reveals stamps in another unit.
 
 use std::fmt;
 
-/// Least and greatest rate of stamps that follow the clock of the host.
+/// Least rate of stamps that follow the clock of the host; the next constant is the greatest rate.
 const RATE_MIN: f64 = 0.5;
 const RATE_MAX: f64 = 2.0;
-/// Greatest factor between a rate and the rate of its unit: about the root of 1000.
+/// Greatest factor between a measured rate and the rate of a mistaken unit in [`UNITS`]: about √1000.
 const UNIT_FACTOR: f64 = 30.0;
 /// Least rate that a smaller unit does not explain. A busy host that falls behind a queue of thousands of samples a second sees low rates too.
 const SMALLER_UNIT_MAX: f64 = 0.005;
@@ -73,7 +73,7 @@ impl fmt::Display for StampRate {
     }
 }
 
-/// Minimum number of samples in a window, and of seconds that the host waits for them.
+/// Minimum number of samples in a window; the next constant is the minimum time that the host waits for these samples, s.
 const SAMPLES_MIN: u32 = 2;
 const WINDOW_S: f64 = 0.2;
 /// Number of consecutive windows with stamps of a smaller unit that is an error of the device. A queue after a pause of the host fills one window.
@@ -93,7 +93,8 @@ pub(super) struct StampWindows {
 }
 
 impl StampWindows {
-    /// Adds a sample with the stamp `stamp_s`, for which the calls took `waited_s`, both in s. Returns the rate of stamps in a smaller unit.
+    /// Adds a sample with the stamp `stamp_s`, for which the calls took `waited_s`, both in s. Returns the rate if [`SLOW_MAX`] consecutive windows
+    /// have stamps of a smaller unit.
     pub(super) fn add(&mut self, stamp_s: f64, waited_s: f64) -> Option<StampRate> {
         let Some(begun_s) = self.begun_s else {
             self.begun_s = Some(stamp_s);

@@ -85,7 +85,7 @@ pub(super) fn straight(target: &Point, speed: Speed) -> String {
     format!("G1 X{:.4} Y{:.4} Z{:.4} F{feed:.3}", x.0, y.0, z.0)
 }
 
-/// Distance from `target`, mm.
+/// Distance between `place_mm` and `target`, mm.
 pub(super) fn short_mm(place_mm: [f64; 3], target: &Point) -> f64 {
     let target = [target.x.0, target.y.0, target.z.0];
     let sides = place_mm.iter().zip(target).map(|(at, to)| at - to);

@@ -1,4 +1,4 @@
-//! Straight path of an arm, followed by velocities that expire.
+//! Straight path along which an arm is driven by velocity commands that expire.
 
 use std::time::Duration;
 

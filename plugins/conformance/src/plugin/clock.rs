@@ -1,4 +1,4 @@
-//! Comparison of the stamps of a real device with the clock of this machine, which shows stamps in another unit.
+//! Compares the stamps of a real device with the clock of this machine. Stamps in another unit fail this comparison.
 
 use std::time::{Duration, Instant};
 
@@ -19,10 +19,10 @@ pub(super) const CHECKS: &[Check] = &[
     }),
 ];
 
-/// Least time and number of items of one comparison.
+/// Least duration of one comparison; the next constant is its least number of items.
 const COMPARED: Duration = Duration::from_millis(250);
 const COMPARED_MIN: usize = 4;
-/// Number of comparisons of which one must agree. A busy machine delays items in the others.
+/// Number of comparisons, of which one must agree: a busy machine may delay items in the other comparisons.
 const COMPARISONS: usize = 4;
 
 /// The stamps of a real device advance like the clock of this machine.

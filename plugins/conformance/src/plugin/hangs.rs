@@ -11,7 +11,7 @@ use crate::report::Outcome;
 
 /// Divisor of the time limit of a check for its first attempt after a hang.
 const SHORTENED: u32 = 10;
-/// Minimum time limit of a shortened attempt. The start of an interpreter takes most of the time.
+/// Minimum time limit of a shortened attempt. An interpreter needs most of this time to start.
 const LEAST: Duration = Duration::from_secs(5);
 
 /// Calls that did not return.

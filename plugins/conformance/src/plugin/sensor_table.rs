@@ -1,4 +1,4 @@
-//! Checks of the memory of frames at the boundary, and of its release.
+//! Checks of the memory of frames that a plugin passes to its host, and of the release of this memory.
 
 #![expect(
     unsafe_code,

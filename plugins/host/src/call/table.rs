@@ -51,7 +51,7 @@ tables! {
 /// Copies the function table at `table`. Fields beyond the size that the plugin states are NULL.
 ///
 /// # Safety
-/// `table` points to a table of the interface: its size field can be read, and so can the number of bytes in that field.
+/// `table` points to a table of the interface: its size field can be read, and so can as many bytes as this field states.
 pub(crate) unsafe fn table<T: Table>(table: *const c_void) -> Result<T, Failure> {
     let refused = |problem: &str| Failure::new(ErrorKind::Abi, format!("{}: {problem}", T::NAME));
     if table.is_null() {

@@ -92,7 +92,7 @@ impl SharedMemory {
         unsafe { std::ptr::copy_nonoverlapping(self.start.as_ptr(), into.as_mut_ptr(), into.len()) }
     }
 
-    /// Bytes of the memory, for the writing process. The other process reads the bytes after the answer.
+    /// Bytes of the memory, for the writing process. The other process reads the bytes after the call has been answered.
     pub(crate) fn bytes_mut(&mut self) -> &mut [u8] {
         // SAFETY: the mapping is valid for `length` bytes while `self` lives. `&mut self` gives exclusive access within this process.
         unsafe { std::slice::from_raw_parts_mut(self.start.as_ptr(), self.length) }

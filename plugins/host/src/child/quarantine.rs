@@ -100,7 +100,7 @@ impl Quarantine {
         taceva_files::replace(&self.file(entry.sha256), |staged| fs::write(staged, text))
     }
 
-    /// Releases every library of `plugin`, or the library with this digest. Returns the number of released libraries.
+    /// Releases every library of the plugin `plugin`, or the library whose digest is `plugin`. Returns the number of released libraries.
     ///
     /// # Errors
     /// If an entry cannot be read or removed.

@@ -50,7 +50,7 @@ pub struct LentFrame<'a> {
     pub bytes: &'a [u8],
     /// Times of exposure and reception.
     pub stamp: Stamp,
-    /// Frame number. A gap in the numbers of a device means lost frames.
+    /// Frame number. If the device assigned the number, a gap means lost frames.
     pub sequence: u64,
     /// True if frames were lost since the last frame.
     pub dropped: bool,

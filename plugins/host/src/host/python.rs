@@ -10,8 +10,8 @@ use crate::python::{Interpreter, PythonError, arguments, closed_by};
 use crate::search::Plugin;
 
 impl Interpreter {
-    /// Specifies a child that runs this interpreter with the confinement of `module` of `plugin`. A trusted child runs as the user of the host, who may read
-    /// every file.
+    /// Specifies a child that runs this interpreter with the confinement of `module` of `plugin`. A trusted child runs as the user of the host, so
+    /// its access to the files is not checked.
     pub(crate) fn spec(
         &self,
         plugin: &Plugin,

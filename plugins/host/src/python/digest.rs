@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 use super::error::PythonError;
 use crate::manifest::Sha256Digest;
 
-/// Limits of a plugin's package: number of files, and total size in bytes.
+/// Maximum number of files of a plugin's package; the next constant is their maximum total size, bytes.
 const FILES_MAX: usize = 10_000;
 const BYTES_MAX: u64 = 1 << 30;
 

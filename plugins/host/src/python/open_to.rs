@@ -3,7 +3,7 @@
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 
-/// Permission bits for other users: read a file or list a folder, and traverse a folder.
+/// Permission bit for other users to read a file or list a folder; the next constant is the bit to traverse a folder.
 const READ: u32 = 0o4;
 const GO_THROUGH: u32 = 0o1;
 

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 
 /// First bytes of every encoded model.
 const MAGIC: &[u8; 8] = b"TACEREG1";
-/// First line of the bytes of a fault of pictures. The host writes these bytes, and the author's `load` receives all of them.
+/// First line of the bytes with which the host describes a simulated fault of pictures. The author's `load` receives all of these bytes.
 const FAULT: &str = "taceva.fault/1";
 
 /// Encodes `regressor`.
@@ -82,7 +82,7 @@ pub(super) fn read<R>(
     load(&Saved::new(rest.0, &channels, shape))
 }
 
-/// Number of values per pixel, from the line `numbers=3` of a fault of pictures; `None` for other bytes.
+/// Number of values per pixel, from the line `numbers=3` of a description that begins with [`FAULT`]; `None` for other bytes.
 fn numbers_of_a_fault(bytes: &[u8]) -> Option<usize> {
     let mut lines = std::str::from_utf8(bytes).ok()?.lines();
     lines.next().filter(|head| *head == FAULT)?;

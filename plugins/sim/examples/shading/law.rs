@@ -129,7 +129,8 @@ fn lit(mut camera: Camera, press: &Press, presses: &Presses) -> Result<Term, Box
         .collect())
 }
 
-/// ΔI = Σ a nₓⁱ nᵧʲ xᵏ yˡ, i + j ≤ 2 and k + l ≤ 1: 18 terms, with x and y in units of half the picture.
+/// The 18 terms of ΔI = Σ a nₓⁱ nᵧʲ xᵏ yˡ, i + j ≤ 2 and k + l ≤ 1, with coefficients a, the unit surface normal n, and the place x, y in units of
+/// half the picture.
 fn powers(tables: &Tables, press: &Press, presses: &Presses) -> Vec<Term> {
     let load = presses.load(press);
     let mut profile = Profile::new();

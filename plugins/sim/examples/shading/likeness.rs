@@ -12,7 +12,7 @@ pub(crate) struct Likeness {
     ssim: f64,
 }
 
-/// Half-width of the window of the structural similarity, and standard deviation of its weights, in pixels.
+/// Half-width of the window of the structural similarity, pixels; the next constant is the standard deviation of its weights.
 const REACH: usize = 5;
 const SPREAD: f64 = 1.5;
 

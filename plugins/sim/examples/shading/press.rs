@@ -6,7 +6,7 @@ use std::path::Path;
 
 use taceva_sim::displacement::Load;
 
-/// Radius of the ball and side of a pixel, mm, as stated by the data set.
+/// Radius of the ball, mm, as stated by the data set; the next constant is the side of a pixel.
 const BALL_MM: f64 = 2.92;
 const PIXEL_MM: f64 = 0.059_259_3;
 
@@ -121,7 +121,7 @@ impl Presses {
         ]
     }
 
-    /// Contact in the terms of the bench: the annotated radius a, the depth a²/R, and Hertz's force at a modulus of 1 MPa.
+    /// Contact in the terms of the bench: the annotated radius a, the depth a²/R for the ball radius R, and Hertz's force at a modulus of 1 MPa.
     pub(crate) fn load(&self, press: &Press) -> Load {
         let [column, row, radius] = press.contact_px;
         let contact_radius_mm = radius * PIXEL_MM;

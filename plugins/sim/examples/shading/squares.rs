@@ -4,7 +4,7 @@ use std::iter::Sum;
 
 use super::law::Term;
 
-/// Normal equations of some presses: AᵀA, and Aᵀb of each colour.
+/// Normal equations of some presses: AᵀA, and Aᵀb of each colour, with the terms A and the changes b of the pictures.
 #[derive(Clone)]
 pub(crate) struct Squares {
     own: Vec<Vec<f64>>,

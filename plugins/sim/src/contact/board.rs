@@ -8,10 +8,11 @@ use crate::parameters::Layer;
 /// Side of every board, mm.
 pub(crate) const SIDE_MM: f64 = 10.0;
 
-/// Stiffness of a bonded layer under a flat board, N/mm, before a lattice closes.
+/// Stiffness of a bonded layer under a flat board, N/mm, without the stiffening of a closing lattice.
 ///
-/// The board counts as a disc of equal area under the pressure P/(2π a √(a² − r²)), which is exact on a half-space. The kernel of the layer
-/// gives the mean depth: at ν = 1/2, c E a = 3/8 + (1/2π) ∫ (sin x/x)² (3/2) (L(x h/a) − 1) dx.
+/// The board counts as a disc of equal area and radius a under the pressure P/(2π a √(a² − r²)), which is exact on a half-space, at the force P and
+/// the distance r from the centre. The kernel L of the layer gives the compliance c: at ν = 1/2, c E a = 3/8 + (1/2π) ∫ (sin x/x)² (3/2) (L(x h/a) −
+/// 1) dx, with Young's modulus E and the thickness h.
 pub(super) fn layer_stiffness_n_per_mm(layer: &Layer) -> f64 {
     let radius = SIDE_MM / PI.sqrt();
     let thickness = layer.thickness_mm / radius;

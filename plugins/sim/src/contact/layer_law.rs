@@ -5,7 +5,8 @@ use super::stand::Answer;
 use crate::elastic::layer;
 use crate::parameters::Layer;
 
-/// Force law F = (16/9) E √R d^(3/2) ψ(χ) (1 + d/d₀). The last factor is the stiffening of a closing lattice.
+/// Force law F = (16/9) E √R d^(3/2) ψ(χ) (1 + d/d₀) at the depth d of a ball of radius R, with Young's modulus E and ψ of [`layer::force_ratio`].
+/// The last factor is the stiffening of a closing lattice.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LayerLaw {
     layer: Layer,

@@ -1,7 +1,8 @@
 //! Relaxation of a gel: one term of a Prony series.
 //!
-//! F(t) = (1 − g) F₀(d(t)) + h(t), dh/dt = −h/τ + g dF₀/dt. A step with linear F₀ is exact at any length: h ← h e^(−Δt/τ) + g ΔF₀ (τ/Δt) (1 −
-//! e^(−Δt/τ)). The force is never below zero, because a gel that recovers too slowly loses contact.
+//! F(t) = (1 − g) F₀(d(t)) + h(t), dh/dt = −h/τ + g dF₀/dt, with the force F₀ of a gel without relaxation at the depth d, the relaxing fraction g and
+//! the time constant τ. A step with linear F₀ is exact at any length: h ← h e^(−Δt/τ) + g ΔF₀ (τ/Δt) (1 − e^(−Δt/τ)). The force is never below zero,
+//! because a gel that recovers too slowly loses contact.
 //!
 //! # Reference
 //! Standard linear solid; Lee and Radok (1960) for a growing contact. It is an approximation for unloading, where the contact shrinks.

@@ -1,7 +1,7 @@
 //! Conditioning of a gel by earlier presses, also called the Mullins effect.
 //!
-//! Below the depth of earlier presses, a gel has 1 − m (1 − e^(−n/n₀)) of its force after n presses. The history depends on the set of finished presses, not on
-//! their order. An interrupted run therefore has the same gel.
+//! Below the depth of earlier presses, a gel has 1 − m (1 − e^(−n/n₀)) of its force after n presses, with the greatest loss m and the constant n₀ of
+//! its material. The history depends on the set of finished presses, not on their order. An interrupted run therefore has the same gel.
 
 use std::collections::BTreeMap;
 

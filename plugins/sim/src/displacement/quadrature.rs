@@ -1,7 +1,7 @@
 //! Hankel integrals of a bonded layer under a round contact, in units of the contact radius.
 //!
-//! On the surface, the half-space has a closed form. Only the correction of the layer is integrated on the surface. This correction decays like e^(−2kh). Below
-//! the surface, the whole response is smooth and is integrated.
+//! On the surface, the half-space has a closed form. Only the correction of the layer is integrated on the surface. This correction decays like
+//! e^(−2kh), with the wave number k and the thickness h. Below the surface, the whole response is smooth and is integrated.
 
 use std::f64::consts::{PI, TAU};
 
@@ -23,7 +23,7 @@ pub(super) type Values = [f64; Quantity::ALL.len()];
 
 /// Poisson's ratio of an incompressible gel, as assumed by the force laws.
 const POISSON_RATIO: f64 = 0.5;
-/// 2(1 − ν²)/E and 1/G at unit modulus.
+/// 2(1 − ν²)/E at unit modulus; the next constant is 1/G.
 const NORMAL_COMPLIANCE: f64 = 1.5;
 const SHEAR_COMPLIANCE: f64 = 3.0;
 /// Upper end of the integral on the surface, where the correction of the layer has decayed by e^(−28).
@@ -33,7 +33,7 @@ const ATTENUATION_MAX: f64 = 30.0;
 /// Minimum number of panels. It resolves the decay of an integrand that does not oscillate.
 const LEAST_PANELS: f64 = 10.0;
 /// Relative blur far from the contact, where the field varies over lengths like r. A blur of 3 % of r changes the field by 5·10⁻⁴ and ends the
-/// integral at k r = 150.
+/// integral at k r = 150, the next constant, with the wave number k.
 const BLUR: f64 = 0.03;
 const ARGUMENT_MAX: f64 = 150.0;
 
@@ -100,7 +100,7 @@ impl Layer {
         sum[Quantity::BulgeSlope as usize] -= bulge * k * j2_over;
     }
 
-    /// Closed-form part of the half-space at `rho`.
+    /// Closed-form values of the half-space at `rho` contact radii from the centre; zero below the surface.
     pub(super) fn closed_form(&self, rho: f64) -> Values {
         let mut values = Values::default();
         if self.depth > 0.0 {

@@ -10,9 +10,9 @@ pub enum Quantity {
     SinkSlope,
     /// Outward displacement under pressure, divided by r.
     Outward,
-    /// Displacement along the shear direction that is independent of the angle: A₀ + A₂.
+    /// Displacement along the shear direction that is independent of the angle: A₀ + A₂, the Hankel integrals of orders 0 and 2.
     Along,
-    /// Displacement towards the axis of the shear, divided by r²: 2 A₂/r².
+    /// Displacement towards the axis of the shear, divided by r²: 2 A₂/r², with the Hankel integral A₂ of order 2.
     Radial,
     /// Height of the bulge in front of the shear on its axis, divided by r.
     Bulge,
@@ -40,7 +40,7 @@ impl Quantity {
         )
     }
 
-    /// Power of the contact radius in the denominator of the unit.
+    /// Power p of the contact radius a in the scale of the quantity, F/(E aᵖ), with the force F and the modulus E.
     pub(super) const fn radius_power(self) -> u8 {
         match self {
             Quantity::Sink | Quantity::Along => 1,

@@ -15,7 +15,7 @@ use super::state::{Ended, Motion};
 use crate::bench::Bench;
 use crate::parameters::Model;
 
-/// Workspace of the tip, mm, z into the gel.
+/// Corner of the workspace with the least coordinates, mm, z into the gel; the next constant is the opposite corner.
 const LEAST_MM: [f64; 3] = [-40.0, -40.0, -60.0];
 const GREATEST_MM: [f64; 3] = [40.0, 40.0, 25.0];
 const SPEED_MAX_MM_PER_S: f64 = 100.0;

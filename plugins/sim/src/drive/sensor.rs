@@ -43,7 +43,8 @@ impl SensorFactory {
         })
     }
 
-    /// Parameters of the table in the argument `table`, by default the table of the model. Without noise for `quiet`, aged for `ages`.
+    /// Parameters of the table in the argument `table`, by default the table of the model: with the fault that `args` request, quiet for `quiet`, and
+    /// aged for `ages`.
     fn parameters(&self, args: &Args) -> Result<Parameters, String> {
         let table = args.get("table").and_then(ArgValue::as_text);
         let table = table.unwrap_or(self.model.table());

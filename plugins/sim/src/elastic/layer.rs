@@ -1,8 +1,8 @@
 //! A rigid ball on an incompressible elastic layer bonded to a rigid plate.
 //!
-//! Corrections of Hertz's and Mindlin's half-space results as functions of χ = √(R d)/h. The corrections are fits to a boundary-element solution of
-//! the layer's kernel for ν = 1/2 (200 rings, converged to 3·10⁻⁶). The fits are valid up to χ = 1.2. The polynomials published by Dimitriadis et al.
-//! (Biophysical Journal 82, 2002) are lower: by 3.4 % at χ = 1/3 and by 16 % at χ = 1.
+//! Corrections of Hertz's and Mindlin's half-space results as functions of χ = √(R d)/h, with the ball radius R, the depth d and the thickness h. The
+//! corrections are fits to a boundary-element solution of the layer's kernel for ν = 1/2 (200 rings, converged to 3·10⁻⁶). The fits are valid up to χ
+//! = 1.2. The polynomials published by Dimitriadis et al. (Biophysical Journal 82, 2002) are lower: by 3.4 % at χ = 1/3 and by 16 % at χ = 1.
 
 /// Maximum χ of the fits.
 pub const CHI_MAX: f64 = 1.2;

@@ -1,7 +1,8 @@
 //! A shallow spherical shell under a point load.
 //!
 //! # Reference
-//! Reissner (1946): stiffness 4 E t² / (R √(3 (1 − ν²))); the dimple is −(4/π) kei(s/l) deep at arc s.
+//! Reissner (1946): stiffness 4 E t² / (R √(3 (1 − ν²))) at radius R and thickness t. At arc length s, the dimple has −(4/π) kei(s/l) of its depth
+//! under the load, with the decay length l.
 
 use super::kelvin;
 use std::f64::consts::FRAC_PI_4;

@@ -13,7 +13,7 @@ use taceva_core::whole_size;
 const INSIDE: f64 = 0.8;
 /// Absorbed light at the centre of a mark; below 0 for a bright mark. By kind: scratch, tear, dust.
 const DARKNESS: [f64; 3] = [-0.6, 0.8, 0.6];
-/// Radius of a scratch and of a speck of dust, in widths of the field.
+/// Radius of a scratch, in widths of the field; the next constant is the radius of a speck of dust.
 const SCRATCH: f64 = 0.003;
 const SPECK: f64 = 0.01;
 /// Scale of the edges of marks, in widths of the field.
@@ -100,6 +100,6 @@ impl Marks {
     }
 }
 
-/// Numbers of the places of a tear and of dust, above the numbers of scratches.
+/// First random number for the place of a tear, above the numbers of scratches; the next constant is the first number for dust.
 const FIRST_TEAR: u64 = 1_000;
 const FIRST_SPECK: u64 = 2_000;

@@ -26,7 +26,7 @@ pub(super) struct Window {
 ///
 /// * The layer follows a wave of amplitude A and wave number k under a pressure A k E / (1.5 L(k h)), with modulus E, thickness h and the
 ///   layer's kernel L. A lower pressure has a proportional effect.
-/// * The lens passes exp(−k²σ²/2), for harmonic m exp(−2 (π σ m / 2w)²).
+/// * The lens with the blur σ passes exp(−k²σ²/2), for harmonic m exp(−2 (π σ m / 2w)²).
 /// * A pixel of side p passes sin(k p/2) / (k p/2), the same in every direction.
 #[derive(Clone, Debug)]
 pub(super) struct Relief {

@@ -87,9 +87,10 @@ impl GelSpec {
 }
 
 impl OpticsSpec {
-    /// Optics of the sensor with `parameters`. A dome gives a ViTacTip, a layer with a lattice a MagicTac, any other layer a GelSight with its markers, if any.
+    /// Optics of the sensor with `parameters`. A dome gives a ViTacTip, a layer with a lattice a MagicTac, any other layer a
+    /// GelSight with its markers, if any.
     ///
-    /// The longer side of the frame equals the longer side of the gel. The frame of a dome is cropped to a square.
+    /// The longer side of the frame lies along the longer side of the gel. The frame of a dome is cropped to a square.
     pub fn new(parameters: &Parameters) -> OpticsSpec {
         let camera = &parameters.camera;
         let [longer, shorter] = {

@@ -121,7 +121,7 @@ impl Places {
 
 /// Pattern of mean 0 and standard deviation 1 that varies over `sigma` texels, row by row.
 ///
-/// White noise, smoothed by a periodic Gaussian window of that standard deviation.
+/// White noise, smoothed by a periodic Gaussian window of standard deviation `sigma`.
 pub(super) fn smooth_noise(stream: &Stream, layer: u64, sigma: f64) -> Vec<f32> {
     let first = layer * (SIDE * SIDE) as u64;
     let white: Vec<f64> = (first..first + (SIDE * SIDE) as u64)

@@ -17,8 +17,8 @@ const SILENCED: [(&str, &str); 8] = [
 const HISS_N: f64 = 0.000_001;
 
 impl Parameters {
-    /// Parses the parameters in `text` without random errors and time-dependent effects. A reading or a picture then depends only on the position of the tip,
-    /// within 1 µN. Variation between units and places is kept.
+    /// Parses the parameters in `text` without random errors of robot, transducer and camera, and without relaxation of the gel. A reading keeps a
+    /// noise of 1 µN. Variation between units and places, conditioning by presses and buckling of a lattice are kept.
     ///
     /// ```
     /// use taceva_sim::{Model, Parameters};

@@ -69,7 +69,7 @@ section! {
         relaxation_time_s: "s", 0.001 ..= 100000.0;
         /// Fraction of the force that a gel loses below a depth of earlier presses.
         conditioning_fraction: "1", 0.0 ..= 0.5;
-        /// Number of presses after which the remaining loss is 1/e of its limit.
+        /// Number of presses after which the loss still lacks 1/e of its limit.
         conditioning_presses: "1", 0.1 ..= 1000.0;
     }
 }

@@ -1,7 +1,7 @@
 //! Search for contact: moves down in steps until the force exceeds a threshold.
 //!
-//! Contact is detected late, by up to one step beyond the depth of the threshold, or sometimes early, by noise. Depth zero of the rig therefore differs from
-//! the surface, and no sensor can measure this offset.
+//! Contact is detected up to one step below the depth at which the force reaches the threshold. Noise may also cause an early detection. Depth zero
+//! of the rig therefore differs from the surface, and no sensor can measure this offset.
 
 use crate::parameters::Search;
 use crate::random::Stream;

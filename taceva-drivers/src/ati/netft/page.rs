@@ -84,7 +84,7 @@ impl Page {
         Page::whole(page)
     }
 
-    /// Checks that `page` ends with the end of its first element. A truncated page would otherwise seem to lack entries.
+    /// Checks that `page` contains the end tag of its first element. A truncated page would otherwise seem to lack entries.
     pub(super) fn whole(page: String) -> Result<Page, PageError> {
         let names = page.split('<').skip(1);
         let mut elements =

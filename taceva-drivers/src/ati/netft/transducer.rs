@@ -122,7 +122,7 @@ impl Transducer {
         self.records.newest().map_or(0, |seen| seen.what.missing)
     }
 
-    /// Converts a record to N and N·mm, including the zero offset of the box.
+    /// Converts a record to N and N·mm, before the zero offset is subtracted.
     fn wrench(&self, record: &Record) -> Result<Wrench, DriverError> {
         let status = record.status;
         if status.is_saturated() {

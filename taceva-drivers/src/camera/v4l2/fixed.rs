@@ -168,7 +168,7 @@ impl Knob {
         Ok(())
     }
 
-    /// Switches automatic control off unless it is kept. True if it is still on.
+    /// Switches automatic control off unless `keeps`. Returns true if automatic control is still on.
     fn let_go(&self, camera: &mut Camera, keeps: bool) -> Result<bool, DriverError> {
         let (automatic, off) = self.automatic;
         if camera.control(automatic).map_err(refused(FIX))?.is_none() {

@@ -17,7 +17,7 @@ type Colour = [i32; 3];
 pub(super) struct Leds {
     /// Colour in the selector, not yet parsed; `None` without the argument.
     wanted: Option<String>,
-    /// True if the preset states that the sensor has LEDs that this control sets.
+    /// True if, by the preset, the zoom control of the camera sets LEDs of the sensor.
     are_there: bool,
 }
 

@@ -15,7 +15,7 @@ pub(super) struct Matrix {
 }
 
 const ONE: f64 = 65_536.0;
-/// Steps of luminance and colour in the limited range, out of 255.
+/// Steps of luminance in the limited range; the next constants are the steps of colour and the steps of the full range.
 const STEPS_BRIGHTNESS: f64 = 219.0;
 const STEPS_COLOUR: f64 = 224.0;
 const STEPS: f64 = 255.0;

@@ -10,7 +10,7 @@ const EXPONENT_MAX: i8 = 9;
 /// Standard gravity, N/kg. Local gravity, to which scales may be adjusted, differs by up to 0.3 %.
 const N_KG: f64 = 9.806_65;
 const KG_G: f64 = 1e-3;
-/// Grams per international pound, and per ounce.
+/// Grams per international pound; the next constant is grams per ounce.
 const G_POUND: f64 = 453.592_37;
 const G_OUNCE: f64 = G_POUND / 16.0;
 

@@ -163,7 +163,7 @@ impl Transducer {
         }
     }
 
-    /// Converts a reading to N and N·mm, including the zero offset of the box.
+    /// Converts a reading to N and N·mm, before the zero offset is subtracted.
     fn wrench(&self, reading: &Reading) -> Result<Wrench, DriverError> {
         let [fx, fy, fz, mx, my, mz] = reading.values.map(f64::from);
         let unit = self.options.torque_unit_nmm;

@@ -41,8 +41,8 @@ impl Firmware {
         self >= Firmware::new(1, 11, 100)
     }
 
-    /// True if velocities expire. Older controllers keep the last velocity. The vendor's client uses durations since 1.8.0. This function is true only since
-    /// the oldest version with recorded frames.
+    /// True if velocities expire. Older controllers keep the last velocity. The vendor's client uses durations since 1.8.0. This driver needs 1.10.0,
+    /// the oldest version of which frames were recorded.
     pub(super) fn takes_expiring_velocities(self) -> bool {
         self >= Firmware::new(1, 10, 0)
     }

@@ -52,7 +52,7 @@ const ASKED_EVERY: Duration = Duration::from_millis(10);
 const ASKED_FOR_ERRORS_EVERY: Duration = Duration::from_millis(100);
 /// Timeout for an answer.
 pub(super) const ANSWER: Duration = Duration::from_millis(300);
-/// Maximum age of a pose. The arm sends 100 per second.
+/// Timeout for the next pose report of a moving arm, which sends 100 per second.
 pub(super) const STALE: Duration = Duration::from_millis(250);
 /// Minimum timeout of a query, for callers past their deadline.
 const GLANCE: Duration = Duration::from_millis(30);
@@ -82,7 +82,7 @@ impl Observer {
         self.poses.as_ref().map(Watch::mailbox)
     }
 
-    /// Current state of the arm, newer than `last` and at most [`STALE`] old.
+    /// Current state of the arm: newer than `last`, or without `last` from a report at most a fifth of [`STALE`] old.
     pub(super) fn observe(
         &mut self,
         exchange: &mut Exchange,

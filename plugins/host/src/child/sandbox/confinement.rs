@@ -21,7 +21,7 @@ pub struct Confinement {
     pub readable: Vec<PathBuf>,
     /// True if the child can map no further code after its plugin is loaded.
     pub seals: bool,
-    /// True if partial enforcement by the kernel is accepted. Otherwise the child refuses to start.
+    /// True if the child starts although the kernel enforces only a part of the limits. If false, the child refuses to start.
     pub accepts_less: bool,
     /// True if nothing is restricted, because the user trusts the plugin. The process then only protects the host from crashes.
     pub is_trusted: bool,

@@ -61,7 +61,7 @@ impl Opening {
     }
 }
 
-/// Answers calls until the device or the socket is closed, then drops the device.
+/// Answers calls until the device or the socket is closed. Drops the device, unless the driver panicked.
 fn serve_calls(mut calls: Socket, server: Box<dyn Server>) {
     let mut server = Some(server);
     while let Ok(((sequence, call), files)) = calls.receive_with_files::<(u32, Call)>() {

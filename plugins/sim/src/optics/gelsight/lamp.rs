@@ -77,8 +77,9 @@ impl Lamp {
 
     /// Adds the light of the lamp to red, green and blue of the pixels at `x`, `y`.
     ///
-    /// I = ρ (d₀/d) max(0, n·l). Here d is the distance to the nearest point of the bar, l the unit vector to it, and n ∝ (−Hx, −Hy, 1). With the vector L = d
-    /// l, this is ρ d₀ max(0, n·L) / d². Only the length of n then needs a root.
+    /// I = ρ (d₀/d) max(0, n·l). Here ρ is the light of the lamp at the reach d₀, d the distance to the nearest point of the bar, l the unit vector
+    /// to this point, and n ∝ (−Hx, −Hy, 1) the normal for the slopes Hx and Hy. With the vector L = d l, this is ρ d₀ max(0, n·L) / d². Only the
+    /// length of n then needs a root.
     #[inline(always)]
     pub(super) fn light(
         &self,

@@ -106,7 +106,7 @@ impl MarkerGrid {
     }
 }
 
-/// Mean gray of the untouched gel without markers, for these lamps (fit).
+/// Mean gray of the untouched gel without markers, under the lamps and ambient light of [`GelsightSpec::new`] at brightness 1 (fit).
 const NOMINAL_GRAY: f64 = 144.8;
 
 fn whole(count: f64) -> u16 {

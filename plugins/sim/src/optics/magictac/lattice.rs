@@ -9,7 +9,7 @@ use crate::random::{Purpose, Random};
 
 /// Texel of a layer, mm. The pattern repeats after 128 texels, 23 mm, beyond the visible field.
 const TEXEL_MM: f64 = 0.18;
-/// Correlation lengths of the speckle and of the unevenness of the lines, in texels.
+/// Correlation length of the speckle, in texels; the next constant is the correlation length of the unevenness of the lines.
 const SPECKLE: f64 = 2.2;
 const UNEVENNESS: f64 = 20.0;
 /// Standard deviation of the position of a line, mm.

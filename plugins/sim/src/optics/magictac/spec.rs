@@ -67,5 +67,5 @@ impl MagictacSpec {
     }
 }
 
-/// Mean gray of the untouched block for this glow (fit).
+/// Mean gray of the untouched block if `glow_dn` is 130 and 55 (fit).
 const NOMINAL_GRAY: f64 = 114.8;

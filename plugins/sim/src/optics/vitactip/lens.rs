@@ -22,7 +22,7 @@ impl Lens {
         }
     }
 
-    /// Image of the point `point`, in mm from the dome's centre.
+    /// Image of `point`, a place in mm from the dome's centre, in radii of the rim.
     pub(super) fn project(&self, point: [f64; 3]) -> [f64; 2] {
         let [x, y, z] = point;
         let from_axis = (x * x + y * y).sqrt();

@@ -34,7 +34,7 @@ pub(super) fn outside(scene: AmbientLight, x: f64, y: f64) -> f64 {
     }
 }
 
-/// Brightness of dome and surroundings under its own lamps, in DN.
+/// Brightness of the dome and its surroundings under the lamps of the dome, in DN.
 pub(super) fn base(spec: &VitactipSpec, from_middle: f64, uneven: f64, edge: f64) -> f64 {
     let within = inside(from_middle, edge);
     let skin = spec.skin_dn * glow(from_middle);

@@ -38,8 +38,8 @@ impl Mapped {
         Ok(Mapped { start, length })
     }
 
-    /// First `used` bytes, or all if the buffer is shorter. The caller has dequeued the buffer, so the kernel does not write. These bytes borrow the stream,
-    /// which must queue the buffer again.
+    /// First `used` bytes, or all if the buffer is shorter. The caller has dequeued the buffer, so the kernel does not write. The bytes may be read
+    /// until the stream queues the buffer again.
     pub(crate) fn bytes(&self, used: usize) -> &[u8] {
         // SAFETY: the mapping is readable until `self` is dropped and at least this long; every byte is a valid `u8`. The caller ensures that the
         // kernel does not write meanwhile.
