@@ -186,7 +186,7 @@ impl GelFault {
                 "assumption: a greasy surface",
             )],
             GelFault::Thickness => {
-                let note = "assumption: abrasion; the skin of a dome is softer in proportion";
+                let note = "assumption: abrasion; the skin of a dome softens in proportion to its thickness";
                 [
                     ("layer", "thickness_mm"),
                     ("dome", "skin_thickness_mm"),
