@@ -224,7 +224,7 @@ impl Parameters {
     pub fn worn_table(text: &str, fault: GelFault, severity: u8) -> Result<String, ParameterError> {
         let before = Parameters::parse(text)?;
         let amount = fault.amount(severity);
-        let mut table: toml::Table = text.parse().expect("it was parsed just now");
+        let mut table: toml::Table = text.parse().expect("the same text was parsed before");
         for change in fault.changes(amount) {
             let entries = before.entries().iter();
             let mut entries =

@@ -145,7 +145,7 @@ impl Arm {
             }
             let left = until.saturating_sub(monotonic());
             if left.is_zero() {
-                let why = "it did not arrive within the deadline";
+                let why = "the tip did not arrive within the deadline";
                 return Err(failed(ErrorKind::Timeout, DOING, why).into());
             }
             // Shorter than the deadline: an arm without reports is stopped long before it.
@@ -171,7 +171,7 @@ impl Arm {
                 }
                 if since >= NEVER_BEGUN {
                     let why = format!(
-                        "it came to rest {short_mm:.3} mm from its target, expected at most {NEAR_MM} mm"
+                        "the tip came to rest {short_mm:.3} mm from its target, expected at most {NEAR_MM} mm"
                     );
                     return Err(failed(ErrorKind::DeviceFault, DOING, why).into());
                 }

@@ -128,7 +128,7 @@ pub(super) fn of_table(
     if main.has_guessed_channels || joined.any(|is_guessed| is_guessed) {
         channels.insert_str(
             0,
-            "# A guess: three or six numbers without a header are mostly these, in this order.\n",
+            "# A guess: three or six numbers without a header are mostly the channels below, in this order.\n",
         );
     }
     let mut rest = String::new();

@@ -353,7 +353,7 @@ pub(crate) fn open_switch(
     let selector: Selector = enable
         .value
         .parse()
-        .expect("it was read when it was checked");
+        .expect("the check has parsed this selector");
     let opened = drivers.switches.open(&selector).map_err(|error| {
         let problem = format!(
             "`enable`: {error}; plug the switch in and check that this user may read it: nothing moves without it"
