@@ -73,7 +73,7 @@ impl M8128Factory {
                 ),
             ArgSpec::choice("zero", ["host", "box"])
                 .default(ArgValue::Text("host".to_owned()))
-                .help("device that zeroes the force: host, this program; box, which takes seconds"),
+                .help("device that zeroes the force: host (this program), or box (takes seconds)"),
         ];
         let facts = Facts::Force(
             ForceFacts::default()
