@@ -86,7 +86,7 @@ impl Arm {
 fn velocity(course: &Course) -> Command {
     #[expect(
         clippy::cast_possible_truncation,
-        reason = "the controller takes no finer numbers"
+        reason = "the protocol sends f32"
     )]
     let velocity_mm_s = course.velocity_mm_s().map(|side| side as f32);
     Command::MoveVelocity(MoveVelocity {

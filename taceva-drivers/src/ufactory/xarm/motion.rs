@@ -182,7 +182,7 @@ impl Arm {
     fn line(&self, target: &Pose, speed: Speed) -> Command {
         #[expect(
             clippy::cast_possible_truncation,
-            reason = "the controller takes no finer numbers; both are far below its greatest"
+            reason = "the protocol sends f32, and both values are far below the maximum of f32"
         )]
         Command::MoveLine(MoveLine {
             pose: numbers_of(target),

@@ -190,7 +190,7 @@ pub(super) fn numbers_of(pose: &Pose) -> [f32; 6] {
     ];
     #[expect(
         clippy::cast_possible_truncation,
-        reason = "the controller takes no finer numbers; a cast rounds to the nearest"
+        reason = "the protocol sends f32, and a cast rounds to the nearest"
     )]
     let numbers = numbers.map(|number| number as f32);
     numbers
