@@ -84,10 +84,7 @@ impl Arm {
 
 /// Velocity command along `course`.
 fn velocity(course: &Course) -> Command {
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "the protocol sends f32"
-    )]
+    #[expect(clippy::cast_possible_truncation, reason = "the protocol sends f32")]
     let velocity_mm_s = course.velocity_mm_s().map(|side| side as f32);
     Command::MoveVelocity(MoveVelocity {
         velocity_mm_s,

@@ -347,7 +347,7 @@ fn a_message_of_other_bytes_needs_another_number_of_the_wire() {
     let place = (0..now.len().max(written.len())).find(|at| now.get(*at) != written.get(*at));
     assert!(
         place.is_none(),
-        "line {} of {} is another one: give `WIRE` the next number, and write its file anew:\n{}",
+        "line {} of {} differs: give `WIRE` the next number, and write the file anew:\n{}",
         place.unwrap_or(0) + 1,
         golden(),
         now.join("\n")
