@@ -149,8 +149,7 @@ impl Reports {
             state: State(state),
             mode,
             queued: u16::from_be_bytes([report[QUEUED], report[QUEUED + 1]]),
-            pose: floats(&report[POSE..])
-                .expect("the length was checked against the place of the pose"),
+            pose: floats(&report[POSE..]).expect("the length was checked to include the pose"),
             status: (self.kind == ReportKind::Status).then(|| ArmStatus {
                 enabled: report[ENABLED],
                 error: report[ERROR],

@@ -45,9 +45,9 @@ fn list<T: Listed + Wire>(messages: &[T], into: &mut String) {
 }
 
 fn line(name: &str, bytes: &[u8], into: &mut String) {
-    write!(into, "{name} ").expect("a string takes everything");
+    write!(into, "{name} ").expect("writing to a string does not fail");
     for byte in bytes {
-        write!(into, "{byte:02x}").expect("a string takes everything");
+        write!(into, "{byte:02x}").expect("writing to a string does not fail");
     }
     into.push('\n');
 }
