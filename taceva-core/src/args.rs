@@ -169,7 +169,7 @@ fn missing(spec: &ArgSpec) -> ArgError {
 
 fn undeclared(key: &str, expected: &str, found: Option<&ArgValue>) -> ! {
     panic!(
-        "the driver did not declare `{key}` as a required {expected} or one with a default, found {found:?}"
+        "`{key}` is {found:?}: the driver must declare it as a {expected} that is required or has a default"
     )
 }
 

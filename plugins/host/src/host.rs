@@ -71,7 +71,7 @@ pub struct PluginHost {
     log: PluginLog,
     #[cfg_attr(
         not(target_os = "linux"),
-        expect(dead_code, reason = "children are for Linux")
+        expect(dead_code, reason = "child processes need Linux")
     )]
     children: Children,
     /// Libraries loaded in this process, one per plugin for all rigs.

@@ -86,7 +86,7 @@ impl Table {
     }
 
     fn line(&mut self, key: &str, value: &dyn fmt::Display) {
-        writeln!(self.text, "{key} = {value}").expect("a string takes everything");
+        writeln!(self.text, "{key} = {value}").expect("writing to a string does not fail");
     }
 
     fn number(&mut self, key: &str, value: Option<f64>) {

@@ -19,7 +19,7 @@ impl Crop {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
-            reason = "a share below a half of a number of 32 bits is one"
+            reason = "less than half of a 32-bit number fits 32 bits"
         )]
         let pixels = |side: u32| (f64::from(side) * share).floor() as u32;
         Crop {

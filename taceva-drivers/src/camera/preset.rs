@@ -40,7 +40,7 @@ static PRESETS: LazyLock<Vec<Preset>> = LazyLock::new(|| {
     ];
     let read = |(name, text): (&'static str, &str)| {
         let preset =
-            toml::from_str(text).expect("a preset is a part of the program, which its test reads");
+            toml::from_str(text).expect("an embedded preset is valid TOML, as a test checks");
         Preset { name, ..preset }
     };
     written.into_iter().map(read).collect()

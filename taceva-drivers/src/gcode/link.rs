@@ -48,7 +48,7 @@ impl<S> Heard<S> {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(
     not(feature = "marlin"),
-    expect(dead_code, reason = "GRBL says less than others")
+    expect(dead_code, reason = "GRBL sends fewer kinds of answers than Marlin")
 )]
 pub(super) enum Answer {
     /// The command was accepted.

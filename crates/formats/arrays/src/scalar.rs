@@ -9,7 +9,7 @@ use crate::error::Problem;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(
     not(feature = "hdf5"),
-    expect(dead_code, reason = "only HDF5 has such elements")
+    expect(dead_code, reason = "some variants occur only in HDF5 files")
 )]
 pub(crate) enum Kind {
     Bool,
@@ -30,7 +30,7 @@ pub(crate) enum Kind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(
     not(feature = "hdf5"),
-    expect(dead_code, reason = "only HDF5 has such elements")
+    expect(dead_code, reason = "some variants occur only in HDF5 files")
 )]
 pub(crate) enum Filler {
     Zeros,

@@ -346,7 +346,7 @@ impl Header {
 
     /// Text of the header with its seal.
     pub(crate) fn to_toml(&self) -> String {
-        toml_text::seal(&self.body()).expect("what was just written is TOML")
+        toml_text::seal(&self.body()).expect("the body of a header is TOML")
     }
 
     /// Text of the header without its seal.

@@ -210,7 +210,7 @@ fn scan(bytes: &[u8]) -> Result<Scanned, (usize, &'static str)> {
         let Some((header, length)) = header_at(bytes, at) else {
             return match has_record_behind(bytes, at + 1) {
                 false => Ok(scanned),
-                true => Err((at, "no header, but records follow")),
+                true => Err((at, "no header before a record")),
             };
         };
         if header[5..13] != sequence.to_le_bytes() {
@@ -234,7 +234,7 @@ fn scan(bytes: &[u8]) -> Result<Scanned, (usize, &'static str)> {
             return if end == bytes.len() {
                 Ok(scanned)
             } else {
-                Err((at, "a changed record, but records follow"))
+                Err((at, "a changed record before another record"))
             };
         }
         scanned.records.push(JournalRecord {

@@ -215,7 +215,7 @@ impl Preset {
         Err(ImportError::path(
             &missing.any_of.join("` or `"),
             format!(
-                "preset {} expects {} there, and {} has none; the layout is {}{another}",
+                "preset {} expects {} at this path, but {} has none; the layout is {}{another}",
                 facts.name,
                 missing.what,
                 shown_path(folder.path()),

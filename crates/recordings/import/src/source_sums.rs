@@ -125,7 +125,7 @@ impl SourceSums {
                     shown(line)
                 )
             })?;
-            let folder = folders.last_mut().expect("one from the beginning");
+            let folder = folders.last_mut().expect("the list begins with a folder");
             folder.insert(name, digest);
         }
         folders.retain(|folder| !folder.is_empty());

@@ -235,7 +235,7 @@ impl UnitSuffix {
                 own.symbol()
             ),
             (None, true) => format!(
-                "set `scale` to the number of {} in one of them, or to 1 if the name is wrong",
+                "set `scale` to the number of {} per unit of the column, or to 1 if the name is wrong",
                 unit.symbol()
             ),
         };

@@ -50,7 +50,7 @@ pub fn calibration(
         zeros.push(zero);
     }
     // A hit is 1 and a miss 0. The share of hits is therefore a mean, with the interval of a mean.
-    let share = catalogue::find("mae").expect("it is in the catalogue");
+    let share = catalogue::find("mae").expect("`mae` is in the catalogue");
     let available: FieldSet = dataset.table().fields().with(Field::Prediction);
     let plan = MetricPlan::new(&[share], predicted.channels().clone(), available);
     let columns = Columns {

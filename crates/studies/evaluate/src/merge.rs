@@ -53,7 +53,7 @@ pub(crate) fn report_of(
             if known.is_some() {
                 return Err(EvaluateError::State {
                     path: path.clone(),
-                    problem: format!("`{}` is also in another state", shown(metric)),
+                    problem: format!("the metric `{}` is also in another state", shown(metric)),
                 });
             }
         }

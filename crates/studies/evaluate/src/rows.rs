@@ -279,7 +279,7 @@ pub(crate) fn seen_channels(dataset: &Dataset, channels: &Channels) -> Channels 
     if seen.is_empty() {
         return channels.clone();
     }
-    Channels::new(seen).expect("some of distinct channels are distinct")
+    Channels::new(seen).expect("a subset of distinct channels is distinct")
 }
 
 /// Channels with the names `names`; all channels of the dataset if `names` is empty.

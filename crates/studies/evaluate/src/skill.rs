@@ -12,7 +12,7 @@ pub fn with_skill(mut wanted: Vec<&'static Metric>) -> Vec<&'static Metric> {
 
 /// Definition of the skill score.
 pub fn skill() -> &'static Metric {
-    catalogue::find("skill").expect("it is in the catalogue")
+    catalogue::find("skill").expect("`skill` is in the catalogue")
 }
 
 #[cfg(test)]

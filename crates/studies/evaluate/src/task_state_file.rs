@@ -177,7 +177,7 @@ impl TaskStates {
         };
         if self.tables != other.tables || ours.of != theirs.of {
             return Err(format!(
-                "the states have {} and {} shards, or shards of other tables; merge shards of the same two tables, written with one number of shards",
+                "the states have {} and {} shards, or shards of other tables; merge shards of the same two tables, with the same number of shards",
                 theirs.of, ours.of
             ));
         }

@@ -29,8 +29,7 @@ impl Draws {
     pub(crate) fn between(self, least: i64, greatest: i64, place: [u64; 2]) -> i64 {
         let span = u128::from(greatest.abs_diff(least)) + 1;
         let up = (u128::from(self.bits(place)) * span) >> 64;
-        least
-            + i64::try_from(up).expect("at most the span, which came from two i64 that are lengths")
+        least + i64::try_from(up).expect("at most the difference of two lengths, which fits an i64")
     }
 
     /// Uniformly random place in `footprint`.

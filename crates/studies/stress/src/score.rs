@@ -62,7 +62,7 @@ impl<'a> Scorer<'a> {
         let truth = channels.iter();
         let truth = truth.map(|channel| taceva_evaluate::truth(dataset, channel, rows));
         let truth = truth.collect::<Result<Vec<Column>, _>>()?;
-        let channels = Channels::new(channels).expect("some of distinct channels are distinct");
+        let channels = Channels::new(channels).expect("a subset of distinct channels is distinct");
         if channels.is_empty() {
             return Err(EvaluateError::Request(
                 "the model predicts only angles, but faults are scored by other channels"

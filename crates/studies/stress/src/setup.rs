@@ -104,7 +104,7 @@ impl StressRequest {
         let mut metrics = self.metrics.iter().map(String::as_str);
         if let Some(unknown) = metrics.find(|name| !METRICS.contains(name)) {
             return refused(&format!(
-                "metric `{}`: not a metric of cells, {}",
+                "metric `{}`: not computed for faults, {}",
                 shown(unknown),
                 suggestion(unknown, &METRICS)
             ));

@@ -54,7 +54,7 @@ pub enum NoWidth {
     #[error("the interval of `{0}` reaches 0")]
     ReachesZero(String),
     /// The samples of the result were not found, or name no contact points.
-    #[error("no samples with contact points beside the result")]
+    #[error("the result has no table of samples, or the table names no contact points")]
     NoSamples,
 }
 
@@ -161,7 +161,7 @@ fn ratio(report: &EvaluationReport, wanted: &WantedWidth) -> Result<(f64, Option
         }) if *low > 0.0 && high.is_finite() => Ok((high / low, *degrees_of_freedom)),
         Some(Interval::Ends { .. }) => Err(NoWidth::ReachesZero(wanted.to_string())),
         Some(Interval::Absent(reason)) => Err(no_interval(wanted, reason)),
-        None => Err(no_interval(wanted, "the result states none")),
+        None => Err(no_interval(wanted, "the result states no interval")),
     }
 }
 

@@ -37,7 +37,10 @@ pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
         "seeds",
         "answer",
     ];
-    let mut table = Table::new("Chosen against every other", columns.map(Column::new));
+    let mut table = Table::new(
+        "Chosen against other configurations",
+        columns.map(Column::new),
+    );
     let mut pairs = Vec::new();
     let asked = choices.iter().map(|choice| choice.others.len()).sum();
     let test = SignFlip::default().with_flips(flips_of(asked));

@@ -185,10 +185,10 @@ fn texts() -> Vec<(&'static str, &'static str)> {
 fn mirrored() -> String {
     let mut out = String::new();
     for (c, rust) in sizes_and_offsets().into_iter().chain(constants()) {
-        writeln!(out, "{c} = {rust}").expect("a string takes everything");
+        writeln!(out, "{c} = {rust}").expect("writing to a string does not fail");
     }
     for (name, text) in texts() {
-        writeln!(out, "{name} = \"{text}\"").expect("a string takes everything");
+        writeln!(out, "{name} = \"{text}\"").expect("writing to a string does not fail");
     }
     out
 }
@@ -197,7 +197,7 @@ fn mirrored() -> String {
 fn program() -> String {
     let mut out = String::from("#include <stdio.h>\n");
     for header in headers() {
-        writeln!(out, "#include <taceva/{header}>").expect("a string takes everything");
+        writeln!(out, "#include <taceva/{header}>").expect("writing to a string does not fail");
     }
     out.push_str("int main(void) {\n");
     for (c, _) in sizes_and_offsets().into_iter().chain(constants()) {

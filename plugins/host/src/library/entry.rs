@@ -208,12 +208,10 @@ fn described(
         })?;
     let said = place_of(&provided);
     if said != place {
-        return Err(LoadProblem::Differs {
-            what: driver(),
-            manifest: format!("{place}, by its factory"),
-            library: said.to_string(),
-            module: None,
-        });
+        return Err(LoadProblem::Table(format!(
+            "its description of {} states {said}, expected {place} as in its factory",
+            driver()
+        )));
     }
     Ok((provided, text))
 }

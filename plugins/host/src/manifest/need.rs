@@ -115,8 +115,8 @@ impl FromStr for Need {
                 .map(|port| Need::Listen { port })
                 .ok_or_else(|| refused("expected a port from 1 to 65535, such as `listen:5025`")),
             Some((kind @ ("tcp" | "udp"), peer)) => {
-                let (address, port) =
-                    peer_of(peer).ok_or_else(|| refused("expected `ADDRESS:PORT` after it"))?;
+                let (address, port) = peer_of(peer)
+                    .ok_or_else(|| refused("expected `ADDRESS:PORT` after the first colon"))?;
                 Ok(match kind {
                     "tcp" => Need::Tcp { address, port },
                     _ => Need::Udp { address, port },

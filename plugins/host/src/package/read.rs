@@ -52,7 +52,7 @@ pub fn unpack(archive: impl Read, folder: &Path) -> Result<(), PackageError> {
             (_, _, None) => {
                 return Err(PackageError::entry(
                     &name,
-                    "the archive has no manifest that names it",
+                    "the archive has no manifest that names this file",
                 ));
             }
         };

@@ -53,7 +53,7 @@ pub enum PythonError {
     },
     /// The package `taceva` is missing in the environment or too old for plugins.
     #[error(
-        "{}: {problem}; `{} -m pip install PATH/TO/dist/taceva-{}-*.whl` installs it, the wheel that `.ci/wheel dist` builds in a clone: taceva is not on PyPI yet", shown(program), shown(program), env!("CARGO_PKG_VERSION")
+        "{}: {problem}; install it by `{} -m pip install PATH/TO/dist/taceva-{}-*.whl`: `.ci/wheel dist` builds this wheel in a clone, because taceva is not on PyPI yet", shown(program), shown(program), env!("CARGO_PKG_VERSION")
     )]
     NoPackage {
         /// Path of the interpreter.

@@ -33,7 +33,7 @@ pub enum PressError {
         depth_max_mm: f64,
     },
     /// The shear is out of range.
-    #[error("a shear of {shear_mm} mm, expected at most {shear_most_mm} mm either way")]
+    #[error("a shear of {shear_mm} mm, expected at most {shear_most_mm} mm in either direction")]
     Shear {
         /// Shear along one axis, in mm.
         shear_mm: f64,

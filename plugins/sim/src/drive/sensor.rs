@@ -93,8 +93,8 @@ impl Factory<dyn Sensor> for SensorFactory {
         let refused = |why: String| failed(ErrorKind::InvalidArgument, &driver, doing, why);
         let parameters = self.parameters(args).map_err(refused)?;
         let seed = args.whole("seed").unsigned_abs();
-        let unit = u32::try_from(args.whole("unit"))
-            .expect("its declaration keeps the number of a unit small");
+        let unit =
+            u32::try_from(args.whole("unit")).expect("the declared range of unit numbers is small");
         let spec = OpticsSpec::new(&parameters);
         let reduced = reduced(spec.native, reduction(args, &parameters));
         let camera = Camera::new(&spec, reduced, unit, seed)

@@ -186,7 +186,7 @@ impl GelFault {
                 "assumption: a greasy surface",
             )],
             GelFault::Thickness => {
-                let note = "assumption: abrasion; the skin of a dome is softer in proportion";
+                let note = "assumption: abrasion; the skin of a dome softens in proportion to its thickness";
                 [
                     ("layer", "thickness_mm"),
                     ("dome", "skin_thickness_mm"),
@@ -224,7 +224,7 @@ impl Parameters {
     pub fn worn_table(text: &str, fault: GelFault, severity: u8) -> Result<String, ParameterError> {
         let before = Parameters::parse(text)?;
         let amount = fault.amount(severity);
-        let mut table: toml::Table = text.parse().expect("it was parsed just now");
+        let mut table: toml::Table = text.parse().expect("the same text was parsed before");
         for change in fault.changes(amount) {
             let entries = before.entries().iter();
             let mut entries =

@@ -32,7 +32,7 @@ impl Parameters {
     /// As [`Parameters::parse`].
     pub fn parse_quiet(text: &str) -> Result<Parameters, ParameterError> {
         Parameters::parse(text)?;
-        let mut table: toml::Table = text.parse().expect("it was parsed just now");
+        let mut table: toml::Table = text.parse().expect("the same text was parsed before");
         let mut set = |section: &str, key: &str, value: f64| {
             let number = table
                 .get_mut(section)

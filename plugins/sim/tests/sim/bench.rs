@@ -136,7 +136,7 @@ fn presses_that_no_rig_would_make_are_refused_by_name() {
     };
     assert_eq!(
         refused(shear),
-        "a shear of 9 mm, expected at most 5 mm either way"
+        "a shear of 9 mm, expected at most 5 mm in either direction"
     );
     let dome = bench(Model::ViTacTip).press(&Press {
         place_mm: [13.0, 13.0],

@@ -58,7 +58,7 @@ pub(super) fn write(
 const LABELS: [&str; 3] = ["[columns]", "[classes]", "[[matrix]]"];
 
 /// Beginning of the draft's comment on pictures that no row names.
-const NOT_JOINED: &str = "# No pictures were found that belong to its rows. ";
+const NOT_JOINED: &str = "# No pictures match the rows of the table. ";
 
 /// Beginning of the draft's comment on columns that are not channels.
 const NO_CHANNELS: &str = "# No channels: ";
@@ -327,7 +327,7 @@ mod tests {
 
     #[test]
     fn pictures_that_no_line_joins_come_first_and_labels_decide_the_last_command() {
-        let map = "# No pictures were found that belong to its rows. Not joined: 3 pictures cam/gel_*.png; the table has 2 rows.\n[columns]\nFz = { from = \"f\", unit = \"?\" }\n";
+        let map = "# No pictures match the rows of the table. Not joined: 3 pictures cam/gel_*.png; the table has 2 rows.\n[columns]\nFz = { from = \"f\", unit = \"?\" }\n";
         let said = remarks(map, "m.toml");
         assert_eq!(
             said[0],

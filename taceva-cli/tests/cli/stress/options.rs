@@ -230,7 +230,7 @@ fn metrics_on_request_are_in_json_text_csv_and_the_plan_and_a_misspelt_one_is_re
     bench.refused(
         &format!("{words} --metrics rmsee"),
         2,
-        "metric `rmsee`: not a metric of cells, did you mean `rmse`?",
+        "metric `rmsee`: not computed for faults, did you mean `rmse`?",
     );
 }
 

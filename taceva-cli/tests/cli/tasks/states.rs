@@ -190,7 +190,7 @@ fn any_number_of_shards_merges_to_the_bytes_of_one_pass() {
         "{part:#}"
     );
     bench.ok(&format!("{score} --shard 2/8 --state-out other.state -q"));
-    bench.refused("merge 1.state other.state", 3, "one number of shards");
+    bench.refused("merge 1.state other.state", 3, "the same number of shards");
 }
 
 #[test]

@@ -72,7 +72,7 @@ impl Fixed {
     fn knobs(&self) -> [Knob; 4] {
         #[expect(
             clippy::cast_possible_truncation,
-            reason = "the declaration keeps it below a million"
+            reason = "the declared range keeps the value below a million"
         )]
         let exposure = self.exposure_ms.map(|ms| (ms / EXPOSURE_MS).round() as i32);
         [

@@ -76,7 +76,7 @@ impl Machine {
                 return Err(self.stop.halted());
             }
             if monotonic() >= until {
-                let why = "it did not arrive within the deadline";
+                let why = "the tip did not arrive within the deadline";
                 return Err(failed(ErrorKind::Timeout, MOVE, why));
             }
             let seen = self.look(ANSWER)?;
@@ -89,7 +89,7 @@ impl Machine {
                     }
                     if seen.at.saturating_sub(sent) >= BEGUN && !self.stop.is_halted() {
                         let why = format!(
-                            "it came to rest {short_mm:.3} mm from its target, expected at most {NEAR_MM} mm"
+                            "the tip came to rest {short_mm:.3} mm from its target, expected at most {NEAR_MM} mm"
                         );
                         return Err(failed(ErrorKind::DeviceFault, MOVE, why));
                     }

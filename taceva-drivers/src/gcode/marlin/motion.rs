@@ -75,7 +75,7 @@ impl Printer {
             }
             let now = monotonic();
             if now >= until {
-                let why = "it did not arrive within the deadline".to_owned();
+                let why = "the tip did not arrive within the deadline".to_owned();
                 return Err(failed(ErrorKind::Timeout, why));
             }
             let answer = self.link.answer(LOOK_EVERY);
@@ -104,7 +104,7 @@ impl Printer {
         // NaN fails too.
         if short_mm.is_nan() || short_mm > NEAR_MM {
             let why = format!(
-                "it came to rest {short_mm:.3} mm from its target, expected at most {NEAR_MM} mm"
+                "the tip came to rest {short_mm:.3} mm from its target, expected at most {NEAR_MM} mm"
             );
             return Err(failed(ErrorKind::DeviceFault, why));
         }

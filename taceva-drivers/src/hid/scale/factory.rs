@@ -52,7 +52,7 @@ impl ScaleFactory {
         let arguments = [ArgSpec::number("rate", 0.1, 20.0)
             .unit("Hz")
             .default(ArgValue::Number(2.0))
-            .help("weights per second that the scale sends at least, as measured")
+            .help("least number of weights per second that the scale sends, as measured")
             .changes_facts()];
         let facts = ForceFacts::default()
             .with_axes(Axes::NORMAL)

@@ -73,7 +73,7 @@ impl M8128Factory {
                 ),
             ArgSpec::choice("zero", ["host", "box"])
                 .default(ArgValue::Text("host".to_owned()))
-                .help("device that zeroes the force: host, this program; box, which takes seconds"),
+                .help("device that zeroes the force: host (this program), or box (takes seconds)"),
         ];
         let facts = Facts::Force(
             ForceFacts::default()
@@ -134,7 +134,7 @@ fn whole(rate_hz: f64) -> u16 {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "the declaration keeps it between 1 and 2,000"
+        reason = "the declared range of the rate is 1 to 2,000"
     )]
     let rate = rate_hz.round() as u16;
     rate

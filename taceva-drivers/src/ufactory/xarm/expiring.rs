@@ -45,7 +45,7 @@ impl Arm {
             }
             let now = monotonic();
             if now >= until {
-                let why = "it did not arrive within the deadline";
+                let why = "the tip did not arrive within the deadline";
                 return Err(failed(ErrorKind::Timeout, DOING, why).into());
             }
             if renewed.is_none_or(|renewed| now.saturating_sub(renewed) >= RENEWED) {
@@ -84,10 +84,7 @@ impl Arm {
 
 /// Velocity command along `course`.
 fn velocity(course: &Course) -> Command {
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "the controller takes no finer numbers"
-    )]
+    #[expect(clippy::cast_possible_truncation, reason = "the protocol sends f32")]
     let velocity_mm_s = course.velocity_mm_s().map(|side| side as f32);
     Command::MoveVelocity(MoveVelocity {
         velocity_mm_s,

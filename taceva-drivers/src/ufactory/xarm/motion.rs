@@ -145,7 +145,7 @@ impl Arm {
             }
             let left = until.saturating_sub(monotonic());
             if left.is_zero() {
-                let why = "it did not arrive within the deadline";
+                let why = "the tip did not arrive within the deadline";
                 return Err(failed(ErrorKind::Timeout, DOING, why).into());
             }
             // Shorter than the deadline: an arm without reports is stopped long before it.
@@ -171,7 +171,7 @@ impl Arm {
                 }
                 if since >= NEVER_BEGUN {
                     let why = format!(
-                        "it came to rest {short_mm:.3} mm from its target, expected at most {NEAR_MM} mm"
+                        "the tip came to rest {short_mm:.3} mm from its target, expected at most {NEAR_MM} mm"
                     );
                     return Err(failed(ErrorKind::DeviceFault, DOING, why).into());
                 }
@@ -182,7 +182,7 @@ impl Arm {
     fn line(&self, target: &Pose, speed: Speed) -> Command {
         #[expect(
             clippy::cast_possible_truncation,
-            reason = "the controller takes no finer numbers; both are far below its greatest"
+            reason = "the protocol sends f32, and both values are far below the maximum of f32"
         )]
         Command::MoveLine(MoveLine {
             pose: numbers_of(target),

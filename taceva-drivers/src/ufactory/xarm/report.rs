@@ -149,8 +149,7 @@ impl Reports {
             state: State(state),
             mode,
             queued: u16::from_be_bytes([report[QUEUED], report[QUEUED + 1]]),
-            pose: floats(&report[POSE..])
-                .expect("the length was checked against the place of the pose"),
+            pose: floats(&report[POSE..]).expect("the length was checked to include the pose"),
             status: (self.kind == ReportKind::Status).then(|| ArmStatus {
                 enabled: report[ENABLED],
                 error: report[ERROR],
@@ -190,7 +189,7 @@ pub(super) fn numbers_of(pose: &Pose) -> [f32; 6] {
     ];
     #[expect(
         clippy::cast_possible_truncation,
-        reason = "the controller takes no finer numbers; a cast rounds to the nearest"
+        reason = "the protocol sends f32, and a cast rounds to the nearest"
     )]
     let numbers = numbers.map(|number| number as f32);
     numbers

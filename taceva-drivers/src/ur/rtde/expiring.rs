@@ -58,7 +58,7 @@ impl Arm {
             }
             let now = monotonic();
             if now >= until {
-                let why = "it did not arrive within the deadline";
+                let why = "the tip did not arrive within the deadline";
                 return Err(failed(ErrorKind::Timeout, DOING, why));
             }
             if renewed.is_none_or(|renewed| now.saturating_sub(renewed) >= RENEWED) {

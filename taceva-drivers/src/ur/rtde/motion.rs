@@ -134,7 +134,7 @@ impl Arm {
                 return Err(halted());
             }
             if monotonic() >= until {
-                let why = "it did not arrive within the deadline";
+                let why = "the tip did not arrive within the deadline";
                 return Err(failed(ErrorKind::Timeout, DOING, why));
             }
             last = self.look(Some(last.number), STALE)?;
@@ -153,7 +153,7 @@ impl Arm {
             }
             if has_run && rests >= SETTLED || since >= NEVER_BEGUN {
                 let why = format!(
-                    "it came to rest {short_mm:.3} mm from its target, expected at most {NEAR_MM} mm"
+                    "the tip came to rest {short_mm:.3} mm from its target, expected at most {NEAR_MM} mm"
                 );
                 return Err(failed(ErrorKind::DeviceFault, DOING, why));
             }

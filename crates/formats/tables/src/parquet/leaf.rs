@@ -127,7 +127,7 @@ impl Leaf {
             (ColumnReader::FixedLenByteArrayColumnReader(reader), Values::Fixed(values)) => {
                 read!(reader, values)
             }
-            _ => unreachable!("the values are made for the reader"),
+            _ => unreachable!("the values have the type of the reader"),
         };
         let (found, values, levels) = read.map_err(|error| self.outer(error))?;
         if self.max_definition == 0 {

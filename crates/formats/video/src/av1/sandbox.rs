@@ -49,7 +49,7 @@ mod linux {
     pub(in super::super) fn confine(memory: u64) -> Result<(), String> {
         // If the parent has already exited, the closed input ends the child too.
         set_parent_process_death_signal(Some(Signal::KILL))
-            .map_err(|error| format!("cannot set the signal for the end of the parent: {error}"))?;
+            .map_err(|error| format!("cannot set the signal on exit of the parent: {error}"))?;
         for (resource, most, name) in [
             (Resource::As, memory, "memory"),
             (Resource::Fsize, 0, "the size of files"),

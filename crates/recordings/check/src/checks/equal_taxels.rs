@@ -10,7 +10,7 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC039",
     name: "equal-taxels",
-    looks_for: "taxels that change but are equal in every row: a column that is named twice, or two places that are wired together",
+    looks_for: "taxels that change but equal another taxel in every row: a column that is named twice, or two places that are wired together",
     hint: "name each column once under [signals]; if both are one place of the sensor, remove one",
     reads: Some(Field::Signals),
     find,

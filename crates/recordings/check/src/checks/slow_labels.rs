@@ -12,7 +12,7 @@ use crate::stamps::repeated;
 pub(super) static CHECK: Check = Check {
     code: "TAC037",
     name: "slow-labels",
-    looks_for: "labels slower than pictures: one row of a table joined by time labels several rows of the recording",
+    looks_for: "labels slower than pictures: a table is joined by time, and one of its rows labels several rows of the recording",
     hint: "set `pick = \"linear\"` in the [[join]] of the map, or record the labels at least as often as the pictures",
     reads: None,
     find,

@@ -256,7 +256,7 @@ fn names<'a>(paths: impl Iterator<Item = &'a Path>) -> Vec<String> {
         let numbered = (2..).map(|number| format!("{own}#{number}"));
         let free = std::iter::once(own.clone()).chain(numbered);
         let mut free = free.filter(|name| !taken.contains(name));
-        taken.push(free.next().expect("numbers do not end"));
+        taken.push(free.next().expect("the range of numbers is unlimited"));
     }
     taken
 }

@@ -50,7 +50,7 @@ impl PngFile {
             PixelFormat::Gray16 => (16, 0, 2),
             PixelFormat::Rgb8 => (8, 2, 3),
             PixelFormat::Rgb16 => (16, 2, 6),
-            other => return Err(format!("frames of type {} are not written", other.name())),
+            other => return Err(format!("PNG has no pixels of type {}", other.name())),
         };
         let mut form = [0; FORM];
         form[..4].copy_from_slice(&info.width.to_be_bytes());

@@ -129,7 +129,7 @@ pub(super) fn misread(known: &[MappedColumn], new: &[MappedColumn]) -> Option<Mi
         Some(Misread {
             key: column.key("from"),
             own: format!(
-                "another column, since {} is `{}`",
+                "another column ({} gives `{}`)",
                 quoted(&other.from),
                 other.label
             ),

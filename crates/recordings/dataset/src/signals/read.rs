@@ -146,7 +146,9 @@ fn starts(
         let own = u64::try_from(group.num_rows()).map_err(|_| "a negative number of rows")?;
         let values = own.checked_mul(length as u64);
         if values.is_none_or(|values| values > GROUP_VALUES as u64) || own == 0 {
-            return Err(format!("a row group of {own} rows of {length} numbers"));
+            return Err(format!(
+                "a row group of {own} rows of {length} numbers, expected 1 to {GROUP_VALUES} numbers"
+            ));
         }
         sum = sum.saturating_add(own);
         starts.push(sum);

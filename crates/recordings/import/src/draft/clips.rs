@@ -166,7 +166,7 @@ fn other_length(clip: &Path, main: &SeenTable<'_>) -> Option<String> {
         None => (", rate = FRAMES_A_SECOND", "at this rate"),
     };
     Some(format!(
-        "{open}. If their clocks differ, write\n\
+        "{open}. If the clip and the table have separate clocks, write\n\
          # table = {{ file = {name:?}, format = \"clip\"{rate} }} above, whose rows are the frames {times}, join this table by [[join]] \
          with `time`, and omit `index`"
     ))

@@ -164,7 +164,7 @@ fn by_end_of_path(folder: &SourceFolder, main: &SeenTable<'_>) -> Option<FrameLi
     let first = column.cells.iter().find(|cell| !cell.is_empty())?;
     let begin: Vec<&str> = first.split('/').take(above).collect();
     let comment = format!(
-        "# A guess: paths in {:?} begin with {:?}, {above} folders above this folder; only their ends name the pictures.",
+        "# A guess: paths in {:?} begin with {:?}, which leads to this folder; the rest of each path names the picture.",
         column.name,
         begin.join("/")
     );
@@ -181,7 +181,7 @@ fn by_end_of_path(folder: &SourceFolder, main: &SeenTable<'_>) -> Option<FrameLi
             lines: vec![
                 comment,
                 format!(
-                    "column = \"?\"   # {:?}, if you draft the map of the folder to which its paths are relative",
+                    "column = \"?\"   # the paths in {:?} are relative to another folder: draft the map of that folder",
                     column.name
                 ),
             ],
@@ -316,7 +316,7 @@ pub(super) fn are_pairs(tables: &FileGroup, files: &FileGroup) -> bool {
 /// Index line whose value is left open, for pictures in one file that several tables share. By default each table would begin with the first picture.
 pub(super) fn counted_through(tables: &FileGroup) -> String {
     format!(
-        "index = \"?\"   # {} tables share it: name the column that numbers its pictures",
+        "index = \"?\"   # {} tables share this file: name the column that numbers its pictures",
         tables.paths.len()
     )
 }

@@ -82,7 +82,7 @@ pub(super) fn of_table(
         line(
             &mut text,
             &format!(
-                "# Not joined, because no line below uses a column of it: {}",
+                "# Not joined, because no line below uses a column of these tables: {}",
                 unused.join(", ")
             ),
         );
@@ -128,7 +128,7 @@ pub(super) fn of_table(
     if main.has_guessed_channels || joined.any(|is_guessed| is_guessed) {
         channels.insert_str(
             0,
-            "# A guess: three or six numbers without a header are mostly these, in this order.\n",
+            "# A guess: three or six numbers without a header are mostly the channels below, in this order.\n",
         );
     }
     let mut rest = String::new();
@@ -221,7 +221,7 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
     if group.parts.names.is_empty() {
         line(
             &mut text,
-            "# Their names have no varying part that could be a label.",
+            "# The names of the pictures have no varying part that could be a label.",
         );
     } else {
         add_path(&mut text, &group.parts);

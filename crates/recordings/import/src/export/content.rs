@@ -49,10 +49,13 @@ impl Exported<'_> {
                 !header.extended.is_empty(),
                 "which rows were added later: an import of this export divides its samples anew, so do not test a model of this dataset on that import",
             ),
-            (!header.left_out.is_empty(), "omissions of its own import"),
+            (
+                !header.left_out.is_empty(),
+                "omissions of the import of the dataset",
+            ),
             (
                 !header.unmentioned_columns.is_empty(),
-                "the names of columns that its own import did not read",
+                "the names of columns that the import of the dataset did not read",
             ),
             (
                 header

@@ -37,7 +37,7 @@ pub(super) fn text(comments: &str, source: &Path) -> Result<String, ImportError>
         false => Ok(text),
         true => Err(ImportError::request(
             source,
-            "the draft of its map leaves open more than units: write the draft by `--draft`, and replace every \"?\"",
+            "the drafted map leaves open more than units: write the draft by `--draft`, and replace every \"?\"",
         )),
     }
 }

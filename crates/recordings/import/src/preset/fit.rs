@@ -203,7 +203,7 @@ fn poseit(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     if wrench.len() < 6 {
         return Err(table_error!(
             &path,
-            "{} columns, expected 7: the second, three forces, three torques",
+            "{} columns, expected 7: the time in s, three forces, three torques",
             wrench.len() + 1
         ));
     }

@@ -52,7 +52,9 @@ fn a_table_without_a_used_column_is_named_and_not_joined() {
     let text = draft(lab(&files).path());
     assert!(!text.contains("[[join]]"), "{text}");
     assert!(
-        text.contains("# Not joined, because no line below uses a column of it: \"log.csv\""),
+        text.contains(
+            "# Not joined, because no line below uses a column of these tables: \"log.csv\""
+        ),
         "{text}"
     );
 }

@@ -189,7 +189,7 @@ fn numbered_folders_are_no_views() {
 fn pictures_that_no_line_joins_are_named_in_the_draft_and_in_a_warning_of_the_import() {
     let folder = with_pictures(&[("log.csv", "Fz_N\n1.5\n0.5\n")], &CAMERA);
     let text = draft(folder.path());
-    let expected = "# No pictures were found that belong to its rows. Not joined: 3 pictures cam/gel_*.png; the table has 2 rows.";
+    let expected = "# No pictures match the rows of the table. Not joined: 3 pictures cam/gel_*.png; the table has 2 rows.";
     assert!(line(&text, "# No pictures").starts_with(expected), "{text}");
     let found = summary(folder.path(), &filled(&text));
     assert_eq!(codes(&found), ["no-pictures"]);
@@ -202,7 +202,7 @@ fn pictures_that_no_line_joins_are_named_in_the_draft_and_in_a_warning_of_the_im
     let alone = with_pictures(&[("log.csv", "Fz_N\n1.5\n0.5\n")], &[]);
     let text = draft(alone.path());
     assert!(
-        text.contains("\n# No pictures were found that belong to its rows.\n"),
+        text.contains("\n# No pictures match the rows of the table.\n"),
         "{text}"
     );
     assert!(codes(&summary(alone.path(), &filled(&text))).is_empty());

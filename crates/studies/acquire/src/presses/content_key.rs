@@ -48,10 +48,7 @@ impl PlannedStudy {
 
 /// Selector of a device, and the build of its driver if the driver is a plugin.
 #[derive(Debug)]
-#[expect(
-    dead_code,
-    reason = "its fields are read when it is debugged into a key"
-)]
+#[expect(dead_code, reason = "the Debug format reads the fields")]
 struct Opened {
     selector: String,
     build: Option<String>,

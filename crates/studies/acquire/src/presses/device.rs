@@ -23,7 +23,7 @@ impl<D: Device + ?Sized> Opened<D> {
         let device = open(registry, &selector, shared)?;
         let factory = registry
             .get(selector.driver())
-            .expect("it was opened by this key");
+            .expect("the device was opened by this key");
         let arguments = factory.descriptor().args(selector.arguments());
         let described = arguments
             .ok()

@@ -387,7 +387,7 @@ pub(super) fn key_of(selector: &str) -> &str {
 /// Error for a robot whose clock is unknown to the program.
 fn without_clock(robot: &Selector) -> DriverError {
     let key: Result<DriverKey, _> = robot.driver().parse();
-    let key = key.expect("it was opened by this key");
+    let key = key.expect("the robot was opened by this key");
     let why =
         StopCause::Missing("the clock of this robot, which this program does not know".to_owned());
     DriverError::new(ErrorKind::Unsupported, &key, "conduct a run").because(why.to_string())

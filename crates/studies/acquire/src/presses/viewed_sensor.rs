@@ -30,7 +30,7 @@ impl Sensor for Seen {
     ) -> Result<Stamp, DriverError> {
         let info = into.info();
         let bytes = into.bytes_mut();
-        let again = FrameMut::new(info, bytes).expect("its bytes are those of a frame");
+        let again = FrameMut::new(info, bytes).expect("the bytes are those of a frame");
         let stamp = self.sensor.capture(again, deadline)?;
         if let Ok(frame) = Frame::new(info, bytes.to_vec()) {
             self.viewer.frame(&frame);

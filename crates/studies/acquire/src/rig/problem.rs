@@ -85,7 +85,7 @@ impl fmt::Display for RigProblem {
                 "the {device} has noise of {measured:.4}, but its driver states {stated:.4}: presses may be halted without cause; check for vibration"
             ),
             RigProblem::Untaught => f.write_str(
-                "`origin_mm` and `axes` of [robot] are those of a new file, and the robot may move down instead of up: run `taceva rig teach`",
+                "`origin_mm` and `axes` of [robot] still have the values of a new file, and the robot may move down instead of up: run `taceva rig teach`",
             ),
             RigProblem::InGel { depth_mm } => write!(
                 f,

@@ -322,7 +322,7 @@ pub(crate) fn check_taught(rig: &RigFile, drivers: &Drivers) -> Result<(), Scene
     match &rig.robot {
         Some(robot) if is_untaught(rig, drivers) => {
             let problem = format!(
-                "`origin_mm` and `axes` are those of a new file: run taceva rig teach {}; nothing moves until then",
+                "`origin_mm` and `axes` still have the values of a new file: run taceva rig teach {}; nothing moves until then",
                 taceva_core::shown(rig.name())
             );
             Err(rig.error(robot.origin_mm.at(), SceneProblem::Contradiction(problem)))
@@ -353,7 +353,7 @@ pub(crate) fn open_switch(
     let selector: Selector = enable
         .value
         .parse()
-        .expect("it was read when it was checked");
+        .expect("the check has parsed this selector");
     let opened = drivers.switches.open(&selector).map_err(|error| {
         let problem = format!(
             "`enable`: {error}; plug the switch in and check that this user may read it: nothing moves without it"

@@ -21,7 +21,7 @@ fn words(join: &MappedJoin) -> String {
         "time" => format!("its time {}", shown(column)),
         "columns" => shown(&join.on.join(", ")).to_string(),
         "row" => "row number".to_owned(),
-        "until" => format!("the number {} up to which its rows reach", shown(column)),
+        "until" => format!("the first greater number in {}", shown(column)),
         by => by.to_owned(),
     };
     let pick = join.pick.as_deref().map(|pick| match pick {

@@ -84,7 +84,7 @@ impl Period {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
-            reason = "a whole number from 0 to that of the type"
+            reason = "a whole number from 0 to the maximum of u16"
         )]
         Ok(whole as u16)
     }

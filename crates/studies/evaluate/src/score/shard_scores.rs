@@ -268,7 +268,7 @@ impl ScoreTables {
                 }
             }
         }
-        Err(first_error.expect("BUG: there are keys, and none paired the rows or failed"))
+        Err(first_error.expect("BUG: no key paired the rows, and none failed"))
     }
 
     fn accumulated(

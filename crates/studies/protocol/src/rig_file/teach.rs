@@ -124,7 +124,7 @@ impl Jogged {
         Ok(Taught {
             // Whole micrometres, which is finer than the accuracy of any arm.
             origin_mm: [x.0, y.0, z.0].map(|side| (side * 1e3).round() / 1e3),
-            axes: axes.expect("the third is at right angles to both others"),
+            axes: axes.expect("the third axis is at right angles to the first two"),
             residual_mm: beside_x.max(beside_y),
         })
     }

@@ -60,7 +60,7 @@ impl ReferenceTouch {
                 format!("{before:.3} N/mm in the last session ({change:+.1} %)")
             }
             None => {
-                "if the gel should be about 4.4 or 9.8 times stiffer or softer, the unit of force is wrong".to_owned()
+                "if this stiffness is wrong by a factor of about 4.4 or 9.8, the unit of force is wrong".to_owned()
             }
         };
         format!(

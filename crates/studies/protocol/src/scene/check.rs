@@ -188,7 +188,7 @@ impl Check<'_> {
             && !ReportSpec::LIKE.contains(&like.value.as_str())
         {
             let known = ReportSpec::LIKE.to_vec();
-            let what = "study to report like";
+            let what = "value of `like`";
             return Err(self.text.unknown_name(like.at(), what, &like.value, known));
         }
         let mut keep = report.keep.iter();

@@ -4,7 +4,7 @@ use crate::fault::{Effect, Fault, Scope};
 
 pub(super) static FAULT: Fault = Fault {
     id: "exposure_drift",
-    title: "the picture darkens in proportion to time, from none of the loss at the first sample to all of it at the last",
+    title: "the picture darkens linearly in time, from no loss at the first sample to the full loss at the last",
     parameter: "share of the light that is lost at the end",
     scope: Scope::Fixed,
     table: [0.03, 0.07, 0.15, 0.25, 0.40],

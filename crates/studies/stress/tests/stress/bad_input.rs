@@ -112,7 +112,7 @@ fn a_metric_that_no_cell_has_is_refused_with_the_nearest_name() {
             ..StressRequest::default()
         };
         let said = refused(&dataset, &model, &request);
-        let expected = format!("metric `{name}`: not a metric of cells, {expected}");
+        let expected = format!("metric `{name}`: not computed for faults, {expected}");
         assert!(said.starts_with(&expected), "{said}");
     }
 }

@@ -84,7 +84,7 @@ pub struct StudyChannel {
 impl StudyBench {
     /// JSON with the schema [`BENCH_SCHEMA`].
     pub fn json(&self) -> String {
-        let text = serde_json::to_string_pretty(self).expect("names are texts and numbers finite");
+        let text = serde_json::to_string_pretty(self).expect("texts and finite numbers are JSON");
         text + "\n"
     }
 }

@@ -174,7 +174,7 @@ fn a_result_without_score_interval_or_samples_says_so() {
     };
     assert_eq!(
         none(&bare, "Fz"),
-        "no samples with contact points beside the result"
+        "the result has no table of samples, or the table names no contact points"
     );
     assert!(ScoredWidth::reached(&bare, &wanted("mae", "Fz")).is_ok());
 }

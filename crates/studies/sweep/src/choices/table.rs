@@ -47,7 +47,10 @@ pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
         "95 % over contact points",
         "unit",
     ];
-    let mut table = Table::new("The best of each question", columns.map(Column::new));
+    let mut table = Table::new(
+        "Best configuration for each question",
+        columns.map(Column::new),
+    );
     for choice in choices {
         let group = &groups[choice.chosen];
         let values = group.values("mae", &choice.channel);

@@ -36,7 +36,7 @@ fn survives<T: Wire>(bytes: &[u8]) -> bool {
     // The encodings are compared, because NaN is not equal to itself. Lengths are rounded once, so the second encoding equals the first.
     let (mut once, mut twice) = (Vec::new(), Vec::new());
     if encode(&message, &mut once).is_ok() {
-        let again = decode::<T>(&once).expect("what was written reads");
+        let again = decode::<T>(&once).expect("encoded bytes can be decoded");
         encode(&again, &mut twice).expect("as long as before");
         assert_eq!(once, twice);
     }

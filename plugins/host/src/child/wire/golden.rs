@@ -45,9 +45,9 @@ fn list<T: Listed + Wire>(messages: &[T], into: &mut String) {
 }
 
 fn line(name: &str, bytes: &[u8], into: &mut String) {
-    write!(into, "{name} ").expect("a string takes everything");
+    write!(into, "{name} ").expect("writing to a string does not fail");
     for byte in bytes {
-        write!(into, "{byte:02x}").expect("a string takes everything");
+        write!(into, "{byte:02x}").expect("writing to a string does not fail");
     }
     into.push('\n');
 }
@@ -347,7 +347,7 @@ fn a_message_of_other_bytes_needs_another_number_of_the_wire() {
     let place = (0..now.len().max(written.len())).find(|at| now.get(*at) != written.get(*at));
     assert!(
         place.is_none(),
-        "line {} of {} is another one: give `WIRE` the next number, and write its file anew:\n{}",
+        "line {} of {} differs: give `WIRE` the next number, and write the file anew:\n{}",
         place.unwrap_or(0) + 1,
         golden(),
         now.join("\n")

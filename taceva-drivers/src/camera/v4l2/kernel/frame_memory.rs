@@ -1,7 +1,7 @@
 //! Kernel buffers for images, mapped into this process.
 #![expect(
     unsafe_code,
-    reason = "the kernel's memory is reached by an address that it gives"
+    reason = "the kernel returns the address of its mapped memory"
 )]
 
 use std::os::fd::BorrowedFd;

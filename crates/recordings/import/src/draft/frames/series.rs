@@ -323,9 +323,9 @@ pub(super) fn none_found(groups: &[FileGroup], main: &SeenTable<'_>) -> String {
         })
         .collect();
     match files.is_empty() {
-        true => "# No pictures were found that belong to its rows.".to_owned(),
+        true => "# No pictures match the rows of the table.".to_owned(),
         false => format!(
-            "# No pictures were found that belong to its rows. Not joined: {}; the table has {}. Name them by `column` or `pattern` of [frame].",
+            "# No pictures match the rows of the table. Not joined: {}; the table has {}. Name them by `column` or `pattern` of [frame].",
             files.join(", "),
             counted(main.rows, "row")
         ),

@@ -56,13 +56,13 @@ pub(super) fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
         // An unread item explains the missing arrays.
         None if unread(file, group).is_some() => Err(unread(file, group).unwrap_or_default()),
         None => Err(format!(
-            "no array with rows {}; there are {}",
+            "no array with rows {}, found {}",
             match group {
                 "" => "in it".to_owned(),
                 group => format!("in `{group}`"),
             },
             match names.is_empty() {
-                true => "none that is read".to_owned(),
+                true => "no supported array".to_owned(),
                 false => listed(&names),
             }
         )),

@@ -260,7 +260,7 @@ fn copy_reference(
     if copied.info != expected {
         return Err(ImportError::image(
             &reference.named(),
-            format!("{}, expected {expected} as in the others", copied.info),
+            format!("{}, expected {expected} as in other frames", copied.info),
         ));
     }
     Ok(ReferenceInfo::new(copied.entry.path, copied.entry.digest))

@@ -43,7 +43,7 @@ pub(super) struct WrittenFrame {
 #[derive(Deserialize)]
 #[serde(
     untagged,
-    expecting = "the path of a picture, { column = … } that names one a row, { frame = … } of the clip or array, or \"unknown\""
+    expecting = "the path of a picture, { column = … } that names a picture for each row, { frame = … } of the clip or array, or \"unknown\""
 )]
 enum WrittenReference {
     Path(String),

@@ -149,7 +149,7 @@ impl Check<'_> {
             }
             _ if written.until.is_some() => {
                 return Err(self.at(offset, "`until` excludes `on`, `time`, `pick`, `tolerance_ms` and `lag_ms`: it joins the first row \
-                    whose number exceeds the number of the row"));
+                    whose number exceeds the number of the row of the main table"));
             }
             (Some(on), None, (None, None, None)) => match on {
                 WrittenOn::Word(word) if word == "row" => JoinBy::Row,

@@ -73,7 +73,7 @@ enum Order {
 #[derive(Deserialize)]
 #[serde(
     untagged,
-    expecting = "rows such as \"0..99\", the last one included, or a list of such"
+    expecting = "a range of rows such as \"0..99\", the last one included, or a list of ranges"
 )]
 enum WrittenRest {
     Run(String),
@@ -218,7 +218,7 @@ fn columns_of(text: &str) -> Result<Vec<String>, String> {
                 .collect())
         }
         _ => Err(format!(
-            "`{}`: expected columns by number such as \"1..15\" or \"s0..s3\" written \"s0..3\", the last one included, and at most {} of them",
+            "`{}`: expected columns by number such as \"1..15\" (positions) or \"s0..3\" (s0 to s3), the last one included, and at most {} columns",
             taceva_dataset::internal::shown(text),
             SignalInfo::LEN_MAX
         )),

@@ -51,7 +51,7 @@ impl<'a> ViewReading<'a> {
         let Some(first) = files.next() else {
             return Err(ImportError::path(
                 &format!("frame {index}"),
-                "the reference is a frame of a file, and no row has a picture in one",
+                "the reference is a frame of a clip or an array, but no row has such a picture",
             ));
         };
         if let Some(other) = files.find(|other| other.path() != first.path()) {

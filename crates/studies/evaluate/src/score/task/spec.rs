@@ -114,11 +114,11 @@ impl TaskSpec {
                 ))
             }
             kind if self.gate.is_some() && kind != TaskKind::Depth => Err(format!(
-                "`{name}`: `gate` is of depth maps, but its kind is {}",
+                "`{name}`: `gate` applies to depth maps, but the kind of the task is {}",
                 kind.name()
             )),
             kind if self.unit.is_some() && kind.has_classes() => Err(format!(
-                "`{name}`: `unit` is of depths, places and poses, but its kind is {}",
+                "`{name}`: `unit` applies to depths, places and poses, but the kind of the task is {}",
                 kind.name()
             )),
             TaskKind::Pose if has_classes => Err(format!(
@@ -129,7 +129,7 @@ impl TaskSpec {
             )),
             TaskKind::Class | TaskKind::Event | TaskKind::Outcome if self.thresholds.is_some() => {
                 Err(format!(
-                    "`{name}`: `t` and `r` are thresholds of a pose, but its kind is {}",
+                    "`{name}`: `t` and `r` are thresholds of a pose, but the kind of the task is {}",
                     self.kind.name()
                 ))
             }

@@ -246,7 +246,7 @@ fn an_unknown_report_format_is_answered_with_what_there_is() {
     );
     let error = with("[report]\nlike = \"tacev\"");
     assert!(
-        error.contains("unknown study to report like, did you mean `taceva`?"),
+        error.contains("unknown value of `like`, did you mean `taceva`?"),
         "{error}"
     );
     let error = with("[report]\nkeep = [\"model\"]");

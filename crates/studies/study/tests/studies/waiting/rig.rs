@@ -183,7 +183,7 @@ fn a_run_with_a_rig_file_that_was_never_taught_is_refused_with_its_line_before_a
     let said = refused.expect_err("never taught").to_string();
     assert!(
         said.contains(
-            "lab.toml, line 5: `origin_mm` and `axes` are those of a new file: run taceva rig teach"
+            "lab.toml, line 5: `origin_mm` and `axes` still have the values of a new file: run taceva rig teach"
         ),
         "{said}"
     );

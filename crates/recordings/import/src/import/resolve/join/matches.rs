@@ -69,7 +69,7 @@ impl JoinMatches {
             ),
             false => (
                 format!("{tables} tables"),
-                "join by a column of both, `on = { COLUMN = \"COLUMN\" }`, or by time, or name a table for each with `{path.NAME}`",
+                "join by a column of both tables, `on = { COLUMN = \"COLUMN\" }`, or by time, or name a table for each with `{path.NAME}`",
             ),
         };
         Err(table_error!(
