@@ -8,7 +8,7 @@ use crate::exact::{Dyadic, ExactSum};
 use crate::score::least::LEAST_CLUSTERS;
 use crate::score::value::UndefinedReason;
 
-/// Difference of means, with its standard error over choices of clusters.
+/// Difference of means, with its jackknife standard error over clusters.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MeanDifference {
     pub(super) value: f64,
@@ -71,7 +71,7 @@ impl PairedClusters {
         &self.differences
     }
 
-    /// Difference of the means over all samples, with its standard error over choices of clusters.
+    /// Difference of the means over all samples, with its jackknife standard error over clusters.
     pub(super) fn mean_difference(&self) -> Result<MeanDifference, ComparisonError> {
         let clusters = self.counts.len();
         if clusters < LEAST_CLUSTERS {

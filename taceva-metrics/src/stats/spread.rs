@@ -8,9 +8,9 @@ use crate::score::value::{Finished, UndefinedReason};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bin {
     n: u64,
-    /// m_b = RN of the exact mean.
+    /// m_b, the exact mean of the bin rounded to the nearest binary64 number (RN).
     pub(crate) mean: f64,
-    /// RN(Σ (q − m_b)²).
+    /// RN(Σ (q − m_b)²) over the samples q of the bin.
     squares: f64,
     /// RN(STD), ddof 0.
     deviation: f64,

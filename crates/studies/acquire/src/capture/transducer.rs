@@ -154,7 +154,7 @@ impl Habit {
         *counter = counter.saturating_add(1);
     }
 
-    /// True if most readings differ by their noise. Equal readings are then not measurements.
+    /// True if most readings differ from the previous reading, as noise makes them differ. A run of equal readings is then a frozen signal.
     fn is_lively(self) -> bool {
         self.changed >= Self::LEAST && self.changed > self.equal
     }

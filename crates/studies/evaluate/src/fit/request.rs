@@ -58,7 +58,7 @@ pub struct Recipe {
     pub(super) features: FeatureSpec,
     /// Feature settings that depend on the frames of the recording.
     pub(super) by_recording: FeaturesByRecording,
-    /// Settings other than the feature settings that depend on the frames.
+    /// Requested settings without those in `by_recording`.
     pub(super) asked: ModelSettings,
     /// Feature settings that the fit will choose; `None` if all are known.
     pub(super) open: Option<OpenFeatures>,

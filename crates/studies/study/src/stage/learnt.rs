@@ -108,7 +108,8 @@ impl Learnt {
         &self.models[0].model
     }
 
-    /// Division of the calibration rows by the fit, or by all folds together; `None` for a model that was fitted on another recording.
+    /// Parts into which the fit divided the calibration rows; with folds, the parts of all folds together. `None` for a model that was fitted on another
+    /// recording.
     pub(super) fn division(&self) -> Option<&Divided> {
         match &self.folds {
             Some(folds) => Some(&folds.whole),

@@ -83,7 +83,7 @@ impl VitactipSpec {
     }
 }
 
-/// Mean gray of the untouched dome for this skin (fit).
+/// Mean gray of the untouched dome if `skin_dn` is 1.34 and `surroundings_dn` is 3.5 (fit).
 const NOMINAL_GRAY: f64 = 12.0;
 
 fn rings(columns: f64) -> i32 {
