@@ -100,8 +100,8 @@ impl Plugins {
         Plugins::search_with(path, prefer, &[])
     }
 
-    /// As [`search`](Plugins::search), and also searches the environments of `interpreters`. The first interpreter that answers runs the Python plugins
-    /// that are found outside these environments.
+    /// As [`search`](Plugins::search), and also searches the environments of `interpreters`. The first interpreter that answers runs the Python
+    /// plugins that are found outside these environments.
     pub fn search_with(path: SearchPath, prefer: &[PathBuf], interpreters: &[PathBuf]) -> Plugins {
         let mut searching = Searching::default();
         for interpreter in interpreters {

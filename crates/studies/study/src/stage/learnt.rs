@@ -108,8 +108,7 @@ impl Learnt {
         &self.models[0].model
     }
 
-    /// Parts into which the fit divided the calibration rows; with folds, the parts of all folds together. `None` for a model that was fitted on another
-    /// recording.
+    /// Calibration rows with the parts of the fit, or with the parts of all folds together. `None` if the model was fitted on another recording.
     pub(super) fn division(&self) -> Option<&Divided> {
         match &self.folds {
             Some(folds) => Some(&folds.whole),
