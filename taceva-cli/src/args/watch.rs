@@ -21,7 +21,7 @@ The exit code is 1 if a change was found, or if the untouched pictures are too f
 ///
 /// Untouched pictures are compared with those of the calibration, and pictures of contact with the training pictures of the
 /// model. Each change is printed in one line, with its strength and its remedy. The strength is relative to the change by contact. For
-/// repeated pictures and for pictures of contact it is a share of the newest 30.
+/// repeated pictures, and for pictures of contact, the strength is their share of the newest 30 pictures.
 #[derive(Debug, Args)]
 #[command(after_help = WATCH_HELP, group = ArgGroup::new("watched").required(true).multiple(true).args(["sensor", "rig", "recording"]))]
 pub(crate) struct Watch {

@@ -39,7 +39,7 @@ fn sparsh_leaves_out_the_first_and_the_last_trajectory() {
     );
     assert_eq!(
         f1.difference,
-        "its loop leaves out the first and the last trajectory, `t1` and `t4`; its rule is threshold 0.4 strict, debounce 3, and here is none"
+        "its loop leaves out the first and the last trajectory, `t1` and `t4`; its rule is threshold 0.4 strict, debounce 3, and the right number has no rule"
     );
     let balanced = &numbers[1];
     assert_eq!(
