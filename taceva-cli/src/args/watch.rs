@@ -11,7 +11,7 @@ Untouched pictures are those with a force below 0.05 N by --force or by the rig 
 transducer every picture counts as untouched: touch nothing. The first 10 untouched pictures after a contact are not watched. In a recording the
 labels Fz or Pz show the contact.
 
-The mean of 50 untouched pictures is the baseline, and the next 200 set the limits. They are taken from --calibration if it has at least 100 (50 or
+The mean of 50 untouched pictures is the baseline, and the next 200 set the limits. Both come from --calibration if it has at least 100 (50 or
 more then set the limits), otherwise, and with --fresh, from the first 250 watched pictures. Then a change is found within 30 untouched pictures. Each
 kind of change is printed once, with its remedy. Drift is a change: switch the sensor on half an hour before.
 

@@ -68,9 +68,7 @@ fn the_interval_of_tacbench_should_be_22_7_times_as_wide() {
     let right = half_width.right.expect("six sets");
     close(right / half_width.value, 22.716_216_042_529_418);
     assert!(
-        half_width
-            .difference
-            .ends_with("which is 22.7 times as wide"),
+        half_width.difference.ends_with("and is 22.7 times as wide"),
         "{}",
         half_width.difference
     );
