@@ -432,5 +432,5 @@ def predicted(table: Any, channels: Sequence[str], name: str) -> Any:
     array = next(iter(columns.columns.values())) if is_lone else columns.array(channels, name)
     if columns.index is None or columns.is_counted:
         return array
-    order = aligned(np.arange(len(array)), columns.index, "the index", "number its rows from 0, as they were handed over")
+    order = aligned(np.arange(len(array)), columns.index, "the index", "number the rows of the prediction from 0, in the order of the samples")
     return array if order is None else array[order]

@@ -15,7 +15,7 @@ def main(arguments: list[str] | None = None) -> int:
         "manifest", help="print the plugin.toml of the module; the exit code is 1 if the file differs"
     )
     manifest.add_argument("module", help="the package, by its import name")
-    manifest.add_argument("--write", action="store_true", help="write it into the package instead")
+    manifest.add_argument("--write", action="store_true", help="write plugin.toml into the package instead of printing it")
     manifest.add_argument("--license", help="the licence of a new manifest, such as MIT")
     given = parser.parse_args(arguments)
     try:

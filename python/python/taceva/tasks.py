@@ -368,7 +368,7 @@ def _scores(given: Any, name: str, names: Sequence[str] | None, positive: Any) -
     found = _numbers(given, "probabilities")
     if found.ndim == 1:
         if positive is None:
-            raise ValueError("probabilities has one column, expected the positive class of two as positive=…")
+            raise ValueError("probabilities has one column: name its class, the positive one of two, as positive=…")
         return {f"{name}.p.{_labels([positive], 'positive')[0]}": [repr(score) for score in found.tolist()]}
     if names is None:
         raise ValueError("probabilities: expected the classes of the columns as names=[…]")

@@ -89,7 +89,7 @@ pub(crate) struct BenchStudy {
     /// Numbers of folds, separated by commas: none scores the test part by one model, 5 scores all points by five models
     #[arg(long, value_name = "K,…", value_delimiter = ',', value_parser = Folds::read, default_values = ["none", "3", "5"])]
     pub(crate) folds: Vec<Folds>,
-    /// Models, separated by commas. The scene's own model has the settings of the scene, others their defaults. All have its split
+    /// Models, separated by commas. The scene's own model has the settings of the scene, others their defaults. All use the split of the scene
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', default_values = ["ridge", "cnn"])]
     pub(crate) models: Vec<String>,
     /// The seed of all random numbers, instead of the scene's

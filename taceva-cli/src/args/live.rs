@@ -94,8 +94,8 @@ pub(crate) struct PortArgs {
 const PREVIEW_HELP: &str = "Prints the address of a page on this machine. The page shows the camera at 15 pictures a second, the force, lost frames, the share of saturated
 pixels, and a sharpness that is greatest in focus. Nothing is recorded. Ctrl-C or the button of the page ends the preview.
 
-With --model a fitted model predicts the newest picture, up to 60 a second. The page shows its newtons and millimetres over that picture, marked as
-predictions, and marks pictures unlike the training pictures. The preview skips and counts older pictures if the model is too slow.
+With --model a fitted model predicts the newest picture, up to 60 a second. The page shows predicted newtons and millimetres over that picture,
+marked as predictions, and marks pictures unlike the training pictures. The preview skips and counts older pictures if the model is too slow.
 At the end the command prints the frames seen, shown and skipped, and the share unlike the training pictures. It also prints the delay
 from the stamp to the page that 95 % of the pictures did not exceed.
 

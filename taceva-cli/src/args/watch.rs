@@ -11,7 +11,7 @@ Untouched pictures are those with a force below 0.05 N by --force or by the rig 
 transducer every picture counts as untouched: touch nothing. The first 10 untouched pictures after a contact are not watched. In a recording the
 labels Fz or Pz show the contact.
 
-The mean of 50 untouched pictures is the baseline, and the next 200 set the limits. They are taken from --calibration if it has at least 100 (50 or
+The mean of 50 untouched pictures is the baseline, and the next 200 set the limits. Both come from --calibration if it has at least 100 (50 or
 more then set the limits), otherwise, and with --fresh, from the first 250 watched pictures. Then a change is found within 30 untouched pictures. Each
 kind of change is printed once, with its remedy. Drift is a change: switch the sensor on half an hour before.
 
@@ -21,7 +21,7 @@ The exit code is 1 if a change was found, or if the untouched pictures are too f
 ///
 /// Untouched pictures are compared with those of the calibration, and pictures of contact with the training pictures of the
 /// model. Each change is printed in one line, with its strength and its remedy. The strength is relative to the change by contact. For
-/// repeated pictures and for pictures of contact it is a share of the newest 30.
+/// repeated pictures, and for pictures of contact, the strength is their share of the newest 30 pictures.
 #[derive(Debug, Args)]
 #[command(after_help = WATCH_HELP, group = ArgGroup::new("watched").required(true).multiple(true).args(["sensor", "rig", "recording"]))]
 pub(crate) struct Watch {

@@ -132,7 +132,7 @@ fn late_zero(plan: &Plan) -> Option<String> {
     let contact = &plan.contact;
     (contact.depth_from.value == DepthOrigin::Contact).then(|| {
         format!(
-            "depths and the limit of depth count from the first force above {} N, up to a step of {} mm below the surface, or more: write depth_from = \"surface\" under [protocol.contact] of the scene",
+            "depths and the limit of depth count from the first force above {} N, which can lie a step of {} mm or more below the surface: write depth_from = \"surface\" under [protocol.contact] of the scene",
             contact.threshold_n.value, contact.step_mm.value
         )
     })

@@ -76,7 +76,7 @@ pub(super) fn note_reached(
                 Err(error) => format!("none reached: {error}"),
             };
             let note = format!(
-                "width of the interval of {wanted}: {} wanted, {reached}; one look at the results, which did not change the number of points",
+                "width of the interval of {wanted}: {} wanted, {reached}; the number of points was fixed in advance",
                 percent(wanted.width)
             );
             context.say(format_args!("{}: {note}", shown(&study.plan.name)));
@@ -172,7 +172,7 @@ impl Outlook<'_> {
     fn words(&self, wanted: &WantedWidth) -> String {
         let width = percent(wanted.width);
         let Some(tested) = tested(&self.planned.studies[self.number]) else {
-            return format!("{width} wanted, of a recording whose points are fixed");
+            return format!("{width} wanted; the recording has a fixed number of points");
         };
         let points = counted(tested.points, "tested contact point");
         let Some(pilot) = self.pilot else {
@@ -241,7 +241,7 @@ impl Outlook<'_> {
         let places = endless.filter(|endless| *endless > wanted.width);
         let places = places.map_or_else(String::new, |endless| {
             format!(
-                "; further presses at the same places end at {}",
+                "; more presses at the same places do not bring the width below {}",
                 percent(endless)
             )
         });

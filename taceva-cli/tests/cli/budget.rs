@@ -102,7 +102,7 @@ fn draws_that_contradict_the_first_order_give_the_interval_and_every_format_says
     assert_eq!(budget["mcm"]["seed"], 3);
     // U of first order is 19.5 N, the half-width of the draws 16.7 N.
     let text = bench.ok(&format!("{words} --most-U 18N --html page.html"));
-    let compared = "U is at most 18.00 N of the sources named here; not traceable. Compared: 16.";
+    let compared = "U is at most 18.00 N for the sources named here; not traceable. Compared: 16.";
     let stated = "U = 17 N (half-width of the Monte Carlo interval, p = 95 %)";
     let page = std::fs::read_to_string(bench.path("page.html")).expect("there");
     for written in [&text, &page] {

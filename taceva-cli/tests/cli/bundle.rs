@@ -313,7 +313,7 @@ fn a_state_of_other_tables_is_refused_when_a_bundle_is_made() {
     assert!(ran.err.contains(named), "{}", ran.err);
     assert!(!ran.err.contains(".taceva-"), "{}", ran.err);
     let words = "bundle result.json --draft --out b";
-    bench.refused(words, 3, "nothing to compute its numbers again from");
+    bench.refused(words, 3, "no state and no table to compute");
 }
 
 #[test]

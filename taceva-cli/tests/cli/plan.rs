@@ -109,7 +109,7 @@ fn a_plan_for_a_rig_states_where_depths_count_from_unless_it_is_the_surface() {
     let area = "footprint = { shape = \"disc\", radius_mm = 8.0 }\n[limits]";
     bench.write("lab.toml", &RIG.replace("[limits]", area));
     bench.write("s.toml", GEL);
-    let line = "rig: depths and the limit of depth count from the first force above 0.02 N, up to a step of 0.1 mm below the surface";
+    let line = "rig: depths and the limit of depth count from the first force above 0.02 N, which can lie a step of 0.1 mm or more below the surface";
     let ran = bench.run("plan s.toml --rig lab.toml");
     assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
     assert!(ran.err.contains(line), "{}", ran.err);

@@ -40,7 +40,7 @@ pub(crate) static AGREEMENT: Metric = Metric {
                     `bias` ± this value, from `lower` to `upper`. If a contact point was pressed several times, the variance `sd`² \
                     is the sum of those between and within clusters of the one-way random model. Its degrees of freedom are \
                     Satterthwaite's. Intervals are exact for independent errors of one normal distribution: of `lower` and `upper` by the \
-                    noncentral t distribution, of the value and `sd` by χ². Clusters may differ in spread, so their intervals leave out one \
+                    noncentral t distribution, of the value and `sd` by χ². Clusters may differ in spread, so intervals over clusters leave out one \
                     cluster at a time, as do those of planes and of `slope`. `slope` is the change of the error with the mean of truth and \
                     prediction, and `slope_p` the probability of such a slope by chance. Undefined if all errors are equal, or if all samples are of one cluster. \
                     Above 30,000 clusters of a channel they count as unknown.",

@@ -30,7 +30,7 @@ pub(crate) static TOLERANCE_INTERVAL: Metric = Metric {
                     from `lower` to `upper`. These are mean ± k standard deviations of truth − prediction with the exact factor k of normally \
                     distributed errors. The fewer clusters there are, the greater k is: 3.4 for ten independent errors, 2.2 for a \
                     hundred, at least 1.96. The standard deviation is that of the agreement, with both components of variance if a contact \
-                    point was pressed several times. The interval of the value shows how much it varies between choices of clusters, with \
+                    point was pressed several times. The interval of the value is by jackknife over clusters, with \
                     the same k. Undefined without contact points unless samples are declared independent, if all errors are equal, or if \
                     all samples are of one cluster. Above 30,000 clusters of a channel they count as unknown.",
     needs: LIMIT_NEEDS,

@@ -30,8 +30,8 @@ pub(crate) static UNIFORMITY: Metric = Metric {
     definition: "uniformity/2",
     reference: "TacEva, equation (6)",
     documentation: "Uniformity of the sensitivity of the gel: 1 / (1 + σ/|μ|) of the mean sensitivities of the cells of the footprint; 1 \
-                    is the same everywhere. With few samples per cell, noise makes a uniform surface look uneven. `debiased` removes \
-                    that part, and verdicts use it. A surface that is not shown to differ between places takes part in no verdict. `n_min_5` \
+                    is the same everywhere. With few samples per cell, noise makes a uniform surface look uneven. `debiased` subtracts \
+                    this noise, and verdicts use it. A surface that is not shown to differ between places takes part in no verdict. `n_min_5` \
                     omits cells with fewer than five samples, `normal_only` samples with shear; `mean` and `deviation` are μ and σ.",
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth))
         .with_channels(&["Px", "Py", "Pz", "Fz"])

@@ -33,7 +33,7 @@ pub(crate) static INTRINSIC: Metric = Metric {
                     deviation (over n − 1) of the intervals without gaps. `dropped`: share of intervals that are a gap, longer than 1.5 \
                     medians. `duplicated`: share of frames that equal the previous frame, bit for bit. `field_of_view`: area of the convex \
                     hull of the true places with |true Fz| ≥ 0.02 N, or with true Pz > 0 if no force is measured. `resolution`: pixels \
-                    of a picture, as declared. They describe the recording: the field of view omits a rim that was never pressed, and \
+                    of a picture, as declared. These values describe the recording: the field of view omits a rim that was never pressed, and \
                     pauses count as gaps.",
     needs: Needs::new(FieldSet::EMPTY),
     ..Metric::of(&KIND)

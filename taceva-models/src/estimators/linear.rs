@@ -192,7 +192,7 @@ impl LinearRegressor {
     pub fn predict_one(&self, sample: &[f32], into: &mut [f64]) -> Result<(), ModelError> {
         if sample.len() != self.shape.len() || into.len() != self.channels.len() {
             return Err(invalid(format!(
-                "a sample of {} features into {} places, expected {} and {}",
+                "a sample of {} features and a buffer of {} predictions, expected {} and {}",
                 sample.len(),
                 into.len(),
                 self.shape.len(),

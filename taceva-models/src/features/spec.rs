@@ -84,7 +84,7 @@ pub(crate) const SIZE: SettingInfo = SettingInfo {
     key: "size",
     accepts: "WIDTHxHEIGHT or one number for both, from 1 to 1024; up-to-64x48 or auto in fit, evaluate and models of scenes",
     default: "32x32, 128x96 for networks; 16x16 with markers, 8x8 with statistics",
-    about: "number of cells of every frame; auto tries grids from a quarter as fine to twice as fine; the coarsest within a standard error of the least error is taken; up-to is limited to the pixels of a frame",
+    about: "number of cells of every frame; auto tries 1/4 to 2 times the default resolution and takes the coarsest grid within a standard error of the least error; up-to is limited to the pixels of a frame",
 };
 pub(super) const COLOR: SettingInfo = SettingInfo {
     key: "color",

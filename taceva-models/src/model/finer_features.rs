@@ -22,7 +22,7 @@ impl Model {
     /// to its own features.
     ///
     /// # Errors
-    /// Errors of [`fit`](Model::fit). Also if finer features are given for only one of two parts.
+    /// Errors of [`fit`](Model::fit). Also if only `input` or only `closer` has a validation part.
     pub fn fit_closer(
         input: FitInput<'_>,
         closer: CloserFeatures<'_>,
@@ -30,7 +30,7 @@ impl Model {
     ) -> Result<Model, ModelError> {
         if input.validation.is_some() != closer.validation.is_some() {
             return Err(invalid(
-                "finer features of one part, expected them for both training and validation",
+                "expected finer features of a validation part exactly if the input has a validation part",
             ));
         }
         let chosen =

@@ -82,7 +82,7 @@ pub enum SplitError {
     /// The number of samples or clusters is too small for one in each part.
     #[error(
         "{found} {what} are too few for one in each part{}",
-        if *found == 0 { "; in a run, no press touched the gel" } else { "" }
+        if *found == 0 { "; in a run, this means that no press touched the gel" } else { "" }
     )]
     Few {
         /// Kind of the clusters.

@@ -57,14 +57,14 @@ impl StudyInputs {
     pub(crate) fn withheld_frames(&self) -> Option<Withheld> {
         let digest = self.dataset_digest.as_ref();
         let digest = digest.filter(|_| self.frames.is_empty());
-        digest.map(|digest| withheld(FRAMES_ROLE, "not added by --with frames", digest))
+        digest.map(|digest| withheld(FRAMES_ROLE, "added only by --with frames", digest))
     }
 
     /// The model file that the results name, if it is not added.
     pub(crate) fn withheld_model(&self) -> Option<Withheld> {
         let digest = self.model_digest.as_ref();
         let digest = digest.filter(|_| self.model.is_none());
-        digest.map(|digest| withheld(MODEL_ROLE, "not added by --with model", digest))
+        digest.map(|digest| withheld(MODEL_ROLE, "added only by --with model", digest))
     }
 }
 
@@ -185,7 +185,7 @@ fn studies(
         study.states.is_empty() && (request.withholds_predictions || !has_tables)
     };
     if studies.iter().all(is_bare) {
-        let problem = "nothing to compute its numbers again from: write a state by --state-out or samples by --samples-out, and name the state by --state";
+        let problem = "no state and no table to compute the numbers again: write a state by --state-out or samples by --samples-out, and name the state by --state";
         return Err(BundleError::input(path, problem));
     }
     Ok(studies)
@@ -289,7 +289,7 @@ fn models(
             let problem = format!(
                 "the digest of this model is {digest}, but the results name {}; give the file that `taceva evaluate --with` read, or evaluate with this file",
                 match wanted.is_empty() {
-                    true => "no model file is given".to_owned(),
+                    true => "no model file".to_owned(),
                     false => wanted.join(", "),
                 }
             );
@@ -297,7 +297,7 @@ fn models(
         }
     }
     if models.is_empty() {
-        let problem = "no model file is given of these results: give it by --model FILE; `taceva fit` writes one, and `run` keeps its own if the \
+        let problem = "no model file of these results is given: give it by --model FILE; `taceva fit` writes one, and `run` keeps its own if the \
                        scene has `keep = [\"models\"]` under [report]";
         return Err(BundleError::input(path, problem));
     }

@@ -224,7 +224,7 @@ impl Manifest {
         let opened = taceva_files::seal::json::check(text)
             .map_err(|error| damaged("the manifest has its seal", unsealed(&error.to_string())))?;
         if has_own_seal(text) != Some(true) {
-            let problem = "`seal` has other keys than its content; make the bundle again";
+            let problem = "`seal` is not exactly the seal of the content; make the bundle again";
             return Err(damaged("the manifest has its seal", problem.to_owned()));
         }
         let manifest = serde_json::from_str(text)

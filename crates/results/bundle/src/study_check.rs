@@ -32,7 +32,8 @@ impl StudyCheck<'_> {
             return check;
         }
         let reason = format!(
-            "bundle.json states the level {stated}, reached {}: {}",
+            "bundle.json states the level {}, but the check reached only {}: {}",
+            claim.level,
             check.level,
             check.reason.as_deref().unwrap_or("no files")
         );

@@ -141,7 +141,7 @@ impl BudgetReport {
         let found = match (self.is_passed(), widest.reservation()) {
             (true, None) => format!("at most {most} {unit}"),
             (true, Some(words)) => {
-                format!("at most {most} {unit} of the sources named here; {words}")
+                format!("at most {most} {unit} for the sources named here; {words}")
             }
             (false, _) => format!("not shown to be at most {most} {unit}"),
         };

@@ -49,7 +49,7 @@ impl TaskState {
             unit: None,
             right: first,
             difference:
-                "its places are 1 and 1, so its top 5 is the share of samples with the right class"
+                "its code counts only the first place, so its top 5 is the share of samples with the right class"
                     .to_owned(),
         })
     }
@@ -81,8 +81,8 @@ fn of_inner_trajectories(classes: &Classes) -> Vec<PublicNumber> {
     let all = classes.scores();
     let rule = match classes.rule() {
         RULE_OF_SPARSH => String::new(),
-        "" => format!("; its rule is {RULE_OF_SPARSH}, and here is none"),
-        rule => format!("; its rule is {RULE_OF_SPARSH}, and here it is {rule}"),
+        "" => format!("; its rule is {RULE_OF_SPARSH}, and the right number has no rule"),
+        rule => format!("; its rule is {RULE_OF_SPARSH}, and that of the right number is {rule}"),
     };
     let number = |metric: &str| {
         Some(PublicNumber {
@@ -116,7 +116,7 @@ fn half_width(classes: &Classes) -> Option<PublicNumber> {
     let half_width = PublishedShare::half_width_of(sd, n);
     let published = PublishedShare::new(hits, n, count, half_width);
     let times = match half_width > 0.0 {
-        true => format!(", which is {:.1} times as wide", published.ratio()),
+        true => format!(" and is {:.1} times as wide", published.ratio()),
         false => String::new(),
     };
     Some(PublicNumber {
@@ -126,7 +126,7 @@ fn half_width(classes: &Classes) -> Option<PublicNumber> {
         unit: None,
         right: Some(published.half_width_by_sets()),
         difference: format!(
-            "it divides the spread over {count} sets by the root of {n} samples; Student's t over the sets has their number{times}"
+            "it divides the spread over {count} sets by the root of {n} samples; Student's t interval uses the number of sets{times}"
         ),
     })
 }

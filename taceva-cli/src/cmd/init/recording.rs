@@ -267,9 +267,7 @@ impl Place {
                 format!("column with {subject}, or {LEFT_OUT} to leave it out")
             }
             ("model", None) => "name of the sensor".to_owned(),
-            ("cut", _) => {
-                "keep, to read the messages before the cut of the recording, or refuse".to_owned()
-            }
+            ("cut", _) => "keep, to read a truncated recording up to its end, or refuse".to_owned(),
             (key, Some(subject)) => format!("{key} of {subject}"),
             (key, None) => key.to_owned(),
         }

@@ -87,7 +87,7 @@ speed_max_mm_s = {speed:?}
         &[
             format!("taceva rig teach {rig}     jog the robot to three places: origin and axes"),
             format!(
-                "taceva rig check {rig}     raise the tip by a centimetre before: rates, gaps, noise, one halt"
+                "taceva rig check {rig}     first raise the tip by a centimetre; checks rates, gaps, noise and one halt"
             ),
             format!("taceva init scene; taceva plan scene.toml --rig {rig}"),
         ],

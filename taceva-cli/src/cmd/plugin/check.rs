@@ -57,7 +57,7 @@ pub(super) fn run(args: &PluginCheck, context: &Context) -> anyhow::Result<u8> {
     })?;
     if results.is_empty() {
         return Err(Usage::error(format!(
-            "--only {}: no check of this plugin begins with this; run it without --only to list all checks",
+            "--only {}: expected the beginning of the name of a check; run without --only to list all checks",
             args.only.join(",")
         )));
     }

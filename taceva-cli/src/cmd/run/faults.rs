@@ -58,7 +58,7 @@ pub(in crate::cmd) fn check(planned: &PlannedScene, drivers: &Drivers) -> anyhow
         });
         if let Some(study) = unknown {
             return Err(refused(format!(
-                "fault `{}`: only the bench knows its gel, and the sensor of study `{}` is not simulated; remove it from `faults`",
+                "fault `{}` changes a simulated gel, but the sensor of study `{}` is not simulated; remove the fault from `faults`",
                 of_gel.name(),
                 shown(&study.plan.name)
             )));

@@ -20,7 +20,7 @@ pub(super) fn unshown_skill<'a>(
     let unshown: Vec<String> = unshown.collect();
     (!unshown.is_empty()).then(|| {
         format!(
-            "Skill without a fault is not shown by {}: {}. A larger test part narrows its interval: fit with shares such as --split 'random 40/10/50'.",
+            "Skill without a fault is not shown by {}: {}. A larger test part narrows the interval of the skill: fit with shares such as --split 'random 40/10/50'.",
             counted(samples, "sample"),
             unshown.join(", ")
         )

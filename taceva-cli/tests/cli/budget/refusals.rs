@@ -275,7 +275,8 @@ fn a_certificate_that_does_not_hold_is_refused_and_an_expired_one_is_named_in_ev
     );
     let limited = format!("{words} --most-U 1N");
     let late = bench.ok(&format!("{limited} --date 2027-06-01 --html page.html"));
-    let verdict = "U is at most 1.000 N of the sources named here; certificate expired. Compared: ";
+    let verdict =
+        "U is at most 1.000 N for the sources named here; certificate expired. Compared: ";
     let certificate = "Certificate D-K-1 of a laboratory, serial 42, valid until 2027-05-12.";
     let page = std::fs::read_to_string(bench.path("page.html")).expect("there");
     for written in [&late, &page] {

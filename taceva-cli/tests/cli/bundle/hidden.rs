@@ -133,7 +133,7 @@ fn a_byte_inside_the_seal_of_the_manifest_is_damage_too() {
     });
     let found = verified(&bench, "b", 3);
     let problem = found["damage"][0]["problem"].as_str().expect("words");
-    assert!(problem.contains("other keys than its content"), "{problem}");
+    assert!(problem.contains("not exactly the seal"), "{problem}");
 }
 
 #[test]
@@ -158,7 +158,7 @@ fn a_claim_that_states_a_level_without_its_files_is_not_verified() {
     assert_eq!(stopped.len(), claims);
     let reason = stopped[0]["reason"].as_str().expect("words");
     assert!(
-        reason.contains("states the level predictions, reached form"),
+        reason.contains("states the level predictions, but the check reached only form"),
         "{reason}"
     );
     // An honest one is verified as deep as it goes, and no deeper.

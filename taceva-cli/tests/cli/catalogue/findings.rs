@@ -145,7 +145,7 @@ fn a_number_of_a_bundle_that_no_entry_holds_is_found() {
         let (others, _) = text.rsplit_once("[[measured]]").expect("rows");
         others.to_owned()
     });
-    let words = format!("entries hold {} of its {rows} numbers", rows - 1);
+    let words = format!("entries hold {} of {rows} numbers", rows - 1);
     let found = findings(&bench);
     has(&found, &["bundles/", words.as_str()]);
     assert_eq!(found.len(), 1, "{found:#?}");

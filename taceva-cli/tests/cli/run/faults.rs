@@ -163,7 +163,7 @@ fn a_fault_of_a_gel_is_refused_for_a_recording() {
     bench.refused(
         "run real.toml",
         3,
-        "line 5: fault `temperature`: only the bench knows its gel",
+        "line 5: fault `temperature` changes a simulated gel",
     );
 }
 

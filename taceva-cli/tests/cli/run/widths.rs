@@ -62,7 +62,7 @@ fn a_run_notes_the_width_of_its_interval_and_that_its_points_were_fixed() {
     let (_bench, results, said) = with_pilot();
     let width = printed_width(&results);
     let note = format!(
-        "width of the interval of mae.Fz: 20.0 % wanted, {width:.1} % reached with 16 tested contact points; one look at the results, which did not change the number of points"
+        "width of the interval of mae.Fz: 20.0 % wanted, {width:.1} % reached with 16 tested contact points; the number of points was fixed in advance"
     );
     let notes = results["studies"][0]["provenance"]["notes"].to_string();
     assert!(notes.contains(&note), "{note}\n{notes}");

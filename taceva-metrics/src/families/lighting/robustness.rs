@@ -28,7 +28,7 @@ pub(crate) static R_LIGHT: Metric = Metric {
     definition: "r_light/1",
     reference: "TacEva, equation (8)",
     documentation: "Robustness of the error to light: the change of brightness over the sum of the changes of brightness and error, each \
-                    relative to the reference scene; the mean over the scenes that determine it. A decrease of the error counts like an \
+                    relative to the reference scene; the mean over scenes with a defined ratio. A decrease of the error counts like an \
                     increase; `plus` counts increases only. `scenes` has the ratios of each scene; a scene whose light hardly changed \
                     says little.",
     needs: Needs::new(

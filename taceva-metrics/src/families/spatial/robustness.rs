@@ -33,7 +33,7 @@ pub(crate) static R_SPATIAL: Metric = Metric {
     documentation: "Variation of the mean absolute error between places: the mean of two standard deviations (over n): of the means of a hundred bins \
                     of distance from the axis, and of the means of a hundred bins of depth. Bins without samples do \
                     not count. Bins with few samples differ by chance; `noise_floor` is \
-                    the size of that difference. `excess` is the remainder, where samples of one contact point are dependent, and \
+                    the size of that difference. `excess` is the variation beyond chance if samples of one contact point are dependent; \
                     verdicts use it. A score takes part in them only if its excess is shown to exceed 0. `n_min_5` omits bins with fewer \
                     than five samples. `smooth` uses the rolling mean that plots show. `within` is the other reading of the paper: the \
                     mean of the deviations within the bins.",

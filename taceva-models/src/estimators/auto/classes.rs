@@ -49,7 +49,7 @@ impl Auto {
         let held = held.filter(|held| held.features.samples() > 0);
         let held = held.ok_or_else(|| {
             invalid(
-                "auto chooses a classifier by the validation part, and the split has none: name a split with one, or a model",
+                "auto chooses a classifier by the validation part, but the split has none: name a split with a validation part, or another model",
             )
         })?;
         let (mut tried, mut untried) = (Vec::new(), Vec::new());

@@ -188,7 +188,7 @@ fn rows_fault(rows: u64, claims: u64) -> Option<String> {
             Some(problem.to_owned())
         }
         rows if rows < claims => Some(format!(
-            "entries hold {rows} of its {}: expected all; restore the other rows, or remove every row of the bundle and add it again",
+            "entries hold {rows} of {} in this manifest: expected all; restore the other rows, or remove every row of the bundle and add it again",
             counted(claims, "number")
         )),
         _ => None,

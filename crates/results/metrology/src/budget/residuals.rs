@@ -72,10 +72,10 @@ pub struct Components {
 /// ```
 /// use taceva_metrology::budget::Residuals;
 /// let error = Residuals::default().components().unwrap_err();
-/// assert_eq!(error.to_string(), "0 rows of 0 points, expected at least two points, and two rows of one point");
+/// assert_eq!(error.to_string(), "0 rows of 0 points, expected at least two points, and a point with two rows");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{n} rows of {points} points, expected at least two points, and two rows of one point")]
+#[error("{n} rows of {points} points, expected at least two points, and a point with two rows")]
 pub struct TooFewRows {
     /// Number of rows.
     pub n: u64,

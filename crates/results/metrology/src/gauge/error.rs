@@ -65,7 +65,7 @@ pub enum GaugeError {
     },
     /// A nested study in which operators have different numbers of parts.
     #[error(
-        "operator {operator}: {have} parts, expected {expected} as for most operators; leave out parts until their numbers are equal"
+        "operator {operator}: {have} parts, expected {expected} as for most operators; leave out parts until every operator has the same number of parts"
     )]
     UnequalParts {
         /// Label of the operator.

@@ -127,7 +127,9 @@ impl fmt::Display for NdcReason {
         f.write_str(match self {
             NdcReason::NoVariation => "all readings are equal",
             NdcReason::NoGaugeVariation => "the gauge adds no variation",
-            NdcReason::Errors => "parts of errors differ by bias, not by the measured quantity",
+            NdcReason::Errors => {
+                "the readings are errors, so parts differ by bias and not by measurand"
+            }
         })
     }
 }

@@ -86,7 +86,7 @@ impl Acceptance<'_> {
         let trainings = self.findings.iter().map(|finding| finding.trainings);
         if let Some(trainings) = trainings.max().filter(|trainings| *trainings > 0) {
             table.note(format!(
-                "The model was trained {trainings} times; intervals of scores that differ between trainings include this variance."
+                "The model was trained {trainings} times; intervals of scores that differ between trainings include the variance between trainings."
             ));
         }
         table.note_all(not_measured([self.study.source.as_str()]));

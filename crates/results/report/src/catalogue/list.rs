@@ -61,7 +61,7 @@ pub fn list(sensors: &[Sensor]) -> Table {
         ];
         table.push(cells.into_iter().chain(of_bundles));
     }
-    table.note("A dash: no number of that definition is known here. `numbers` counts all published numbers, sizes and prices; `taceva catalogue show NAME` lists each with its source, definition and conditions.");
+    table.note("A dash: no number with the definition of the column is known here. `numbers` counts all published numbers, sizes and prices; `taceva catalogue show NAME` lists each with its source, definition and conditions.");
     table.note("Prices are in the currency of their source and not converted; `(parts)` is the cost of parts, not the price of a ready sensor.");
     table.note(MECHANISMS);
     for sensor in sensors.iter().filter(is_sensor) {

@@ -233,7 +233,7 @@ impl Choice {
         };
         match against.is_empty() {
             true => alone,
-            false => format!("{alone}; against these places, {}", listed(&against)),
+            false => format!("{alone}; tests contradict this order: {}", listed(&against)),
         }
     }
 }

@@ -38,7 +38,9 @@ pub(super) fn difference(
     let a = of(studies.a, scores.a, names.a)?;
     let b = of(studies.b, scores.b, names.b)?;
     if a.truths != b.truths {
-        return Err(known("the two predicted different samples".to_owned()));
+        return Err(known(
+            "the two models predicted different samples".to_owned(),
+        ));
     }
     let sums = Sides {
         a: &a.sums,

@@ -55,7 +55,7 @@ fn gratings() -> Option<String> {
     let words: Vec<String> = words.collect();
     (!words.is_empty()).then(|| {
         format!(
-            "Its text gives success rates beyond both of figure 3c: {}.",
+            "Its text gives success rates that are not between those of lines and dots in figure 3c: {}.",
             words.join("; ")
         )
     })

@@ -26,7 +26,7 @@ pub(super) fn traceability_line(provenance: &Provenance) -> String {
         let all = &provenance.traceability;
         match provenance.recorded_on {
             Some(day) if of.expired_on(day, all).is_some() => {
-                format!("{of}, expired on the day of the recording, {day}")
+                format!("{of}, no longer valid on the day of the recording, {day}")
             }
             Some(day) if of.issued_after(day, all).is_some() => {
                 format!("{of}, issued after the recording of {day}")
@@ -103,7 +103,7 @@ mod tests {
         });
         assert!(
             expired.ends_with(
-                "valid until 2027-05-12, expired on the day of the recording, 2027-05-13"
+                "valid until 2027-05-12, no longer valid on the day of the recording, 2027-05-13"
             ),
             "{expired}"
         );

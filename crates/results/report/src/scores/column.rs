@@ -172,7 +172,7 @@ impl ScoreTable {
             sentences.extend(about.optimistic.iter().map(|note| format!("{of}{note}.")));
         }
         if self.spread.is_some() {
-            sentences.push("The labels of the sensors differ more than twofold in their spread, which may be part of a difference.".to_owned());
+            sentences.push("The labels of the sensors differ more than twofold in spread, which may explain part of a difference between scores.".to_owned());
         }
         (!sentences.is_empty()).then(|| Words::new(sentences.join(" ")))
     }

@@ -109,8 +109,12 @@ impl DepthState {
         let contact = format!("{words} over pixels with contact in the truth (above {gate} mm)");
         [
             millimetres(metric, format!("{words} over valid pixels"), all),
-            millimetres(metric, format!("mean of the maps' own {words}"), per_map)
-                .variant("per_map"),
+            millimetres(
+                metric,
+                format!("mean over maps of the {words} of each map"),
+                per_map,
+            )
+            .variant("per_map"),
             millimetres(metric, contact, in_contact).variant("in_contact"),
         ]
     }

@@ -56,7 +56,7 @@ impl EventState {
                 unit: Some("1/min"),
                 ..TaskScore::new(
                     "false_alarms",
-                    definition("predicted onsets without a true one, a minute"),
+                    definition("predicted onsets without a matching true onset, per minute"),
                     alarms,
                 )
             },

@@ -39,7 +39,7 @@ fn sparsh_leaves_out_the_first_and_the_last_trajectory() {
     );
     assert_eq!(
         f1.difference,
-        "its loop leaves out the first and the last trajectory, `t1` and `t4`; its rule is threshold 0.4 strict, debounce 3, and here is none"
+        "its loop leaves out the first and the last trajectory, `t1` and `t4`; its rule is threshold 0.4 strict, debounce 3, and the right number has no rule"
     );
     let balanced = &numbers[1];
     assert_eq!(
@@ -68,9 +68,7 @@ fn the_interval_of_tacbench_should_be_22_7_times_as_wide() {
     let right = half_width.right.expect("six sets");
     close(right / half_width.value, 22.716_216_042_529_418);
     assert!(
-        half_width
-            .difference
-            .ends_with("which is 22.7 times as wide"),
+        half_width.difference.ends_with("and is 22.7 times as wide"),
         "{}",
         half_width.difference
     );

@@ -131,7 +131,7 @@ fn samples_of_one_truth_that_cannot_be_paired_are_said_to_be_none() {
         ),
         (
             sampled("b", 0.5, 0.5),
-            "the two predicted different samples",
+            "the two models predicted different samples",
         ),
     ] {
         let (test, notes) = of_tables(sampled("a", 0.0, 0.25), b, ["sha256:1"; 2]);
