@@ -197,8 +197,8 @@ impl Model {
     /// Builds the extractor of this model's features for frames or signals of `info`.
     ///
     /// # Errors
-    /// [`FeatureError`] for frames of another kind or signals of another grid than the frames or signals of the model, or without a needed
-    /// `reference`. Also for a model that reads windows of frames.
+    /// [`FeatureError`] for frames of another kind or signals of another grid than the frames or signals of the model, without a needed
+    /// `reference`, and for a model that reads windows of frames.
     pub fn extractor(
         &self,
         info: impl Into<InputInfo>,

@@ -70,7 +70,7 @@ pub struct TrainingSet {
 /// ```
 pub type Progress = Option<unsafe extern "C" fn(context: *mut c_void, done: f64) -> i32>;
 
-/// `taceva_regressor_calls`.
+/// `taceva_regressor_calls`: functions of a fitted model.
 ///
 /// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
@@ -124,7 +124,7 @@ pub struct Regressor {
     pub calls: *const RegressorCalls,
 }
 
-/// `taceva_estimator_factory`.
+/// `taceva_estimator_factory`: functions that describe, fit and load the estimators of a plugin.
 ///
 /// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///

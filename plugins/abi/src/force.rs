@@ -24,7 +24,7 @@ pub struct Wrench {
     pub torque_n_mm: [f64; 3],
 }
 
-/// `taceva_force_calls`.
+/// `taceva_force_calls`: functions of a force transducer.
 ///
 /// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///

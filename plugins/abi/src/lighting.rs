@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::status::Status;
 use crate::text::Text;
 
-/// `taceva_lighting_calls`.
+/// `taceva_lighting_calls`: functions of a lighting device.
 ///
 /// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///

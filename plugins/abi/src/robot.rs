@@ -57,7 +57,7 @@ pub struct Motion {
     pub speed_m_per_s: f64,
 }
 
-/// `taceva_robot_calls`.
+/// `taceva_robot_calls`: functions of a robot.
 ///
 /// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///

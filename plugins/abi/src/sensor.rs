@@ -91,7 +91,7 @@ pub struct Frame {
     pub private_data: *mut c_void,
 }
 
-/// `taceva_sensor_calls`.
+/// `taceva_sensor_calls`: functions of a sensor.
 ///
 /// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///

@@ -6,7 +6,7 @@
 /// ```
 pub const FNV_OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
 
-/// FNV-1a hash of `bytes`, 64 bits (Fowler, Noll and Vo): published values, the same in every version; not fit for cryptography.
+/// 64-bit FNV-1a hash of `bytes`, with the constants that Fowler, Noll and Vo published. Every version gives the same hash; it is not fit for cryptography.
 ///
 /// ```
 /// use taceva_core::random::fnv_1a;

@@ -50,8 +50,8 @@ pub(crate) fn pack(root: &Path, names: &[String], path: &Path) -> io::Result<()>
 /// Unpacks the bundle at `path` into the empty folder `into`. Unpacks at most `most` bytes, and fewer if the packed file is small.
 ///
 /// # Errors
-/// [`BundleError::Damaged`] for a refused entry: a link, a device, a repeated name, or a name outside the bundle. Also for too many files or bytes,
-/// and for a file that is not a `.tar.gz`.
+/// [`BundleError::Damaged`] for a refused entry: a link, a device, a repeated name, or a name outside the bundle.
+/// Too many files or bytes, and a file that is not a `.tar.gz`, give the same error.
 pub(crate) fn unpack(path: &Path, into: &Path, most: u64) -> Result<(), BundleError> {
     // Checks before opening: opening a pipe would block until it has a writer.
     let about = fs::metadata(path).map_err(BundleError::file(path))?;

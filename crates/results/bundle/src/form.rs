@@ -248,7 +248,7 @@ pub(crate) fn owners(manifest: &Manifest) -> Option<Damage> {
     } else if let Some(position) = authors.iter().position(|author| !author.is_right()) {
         let number = position + 1;
         format!(
-            "author {number}: expected a printable name of 1 to {MOST_NAME} bytes, and an ORCID with its check digit"
+            "author {number}: expected a printable name of 1 to {MOST_NAME} bytes, and no ORCID or one with a right check digit"
         )
     } else if let Some(position) = repeated(authors) {
         let number = position + 1;

@@ -64,7 +64,7 @@ impl PlannedScene {
     /// Parses `text`, and plans the scene with `drivers`. `seed` replaces the seed in the scene.
     ///
     /// # Errors
-    /// [`AcquireError::Scene`] with the line, as for [`Scene::parse`] and [`plan`]. Also for missing drivers, arguments, models and recordings.
+    /// [`AcquireError::Scene`] with the line, as for [`Scene::parse`] and [`plan`], and for missing drivers, arguments, models and recordings.
     pub fn new(
         text: SceneText,
         drivers: &Drivers,

@@ -28,7 +28,7 @@ pub enum Refit {
 /// `provenance` of the results names the recording and the part. No plugin is loaded.
 ///
 /// # Errors
-/// [`EvaluateError::Request`] if no recording has the digest of the results, or if the model was fitted on another recording. Also for a model of every sample
+/// [`EvaluateError::Request`] if no recording has the digest of the results, if the model was fitted on another recording, or if it was fitted on every sample
 /// after a cross-validation. Otherwise errors of [`fit`](crate::fit()).
 pub fn refit(
     model: &Path,

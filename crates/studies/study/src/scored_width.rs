@@ -1,4 +1,4 @@
-//! Width of the interval of a score: reached by a result, and expected with other contact points.
+//! Width of the interval of a score, and the width expected with another number of contact points or of samples at each point.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -22,7 +22,7 @@ pub struct TestedPoints {
     pub samples: f64,
 }
 
-/// Width of the 95 % interval of one score, upper end / lower end − 1, with the variances that predict it for other points.
+/// Width of the 95 % interval of one score, upper end / lower end − 1, with the variances that predict it for other numbers of points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScoredWidth {
     tested: TestedPoints,

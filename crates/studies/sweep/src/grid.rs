@@ -40,7 +40,7 @@ impl Grid {
     /// once the recording exists.
     ///
     /// # Errors
-    /// [`SweepError`] for a grid that is empty or exceeds [`MOST_TASKS`](crate::MOST_TASKS). Also for an unknown model, setting or metric, and for an
+    /// [`SweepError`] for a grid that is empty or exceeds [`MOST_TASKS`](crate::MOST_TASKS), for an unknown model, setting or metric, and for an
     /// unreadable recording or table.
     pub fn of(
         file: &SweepFile,

@@ -34,7 +34,7 @@ pub struct GuardedStop {
     pub stamp: Stamp,
 }
 
-/// `taceva_guarded_motion_calls`.
+/// `taceva_guarded_motion_calls`: function of a robot that stops by itself at a force.
 ///
 /// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///

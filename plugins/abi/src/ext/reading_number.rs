@@ -8,7 +8,7 @@ use crate::status::Status;
 /// Id of this ability.
 pub const NUMBERED: &str = "taceva.force.numbered/1";
 
-/// `taceva_numbered_calls`.
+/// `taceva_numbered_calls`: function of a force transducer that numbers its readings.
 ///
 /// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///

@@ -9,7 +9,7 @@ use crate::text::Text;
 /// Id of this ability.
 pub const SENSOR_LIGHTING: &str = "taceva.sensor.lighting/1";
 
-/// `taceva_sensor_lighting_calls`.
+/// `taceva_sensor_lighting_calls`: function of a sensor with its own lights.
 ///
 /// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///

@@ -8,7 +8,7 @@ use crate::status::Status;
 /// Id of this ability.
 pub const TARE: &str = "taceva.force.tare/1";
 
-/// `taceva_tare_calls`.
+/// `taceva_tare_calls`: function of a force transducer that sets its zero.
 ///
 /// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///

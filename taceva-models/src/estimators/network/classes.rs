@@ -51,7 +51,7 @@ impl NetworkEstimator {
     /// Fits a network with one output for each label of the only channel. The epoch and the temperature come from the validation part.
     ///
     /// # Errors
-    /// Errors of [`Estimator::fit`](taceva_core::Estimator::fit). Also for several channels and too many labels.
+    /// Errors of [`Estimator::fit`](taceva_core::Estimator::fit), and errors for several channels and for too many labels.
     pub(super) fn fit_classes(
         &self,
         training: &TrainingSet<'_>,

@@ -23,7 +23,7 @@ impl Double {
         two_sum(high, low)
     }
 
-    /// Exact product of a and b (Dekker, Veltkamp; one fused operation).
+    /// Exact product of a and b: the rounded product and its rounding error, by a fused multiply-add.
     pub(super) fn product(a: f64, b: f64) -> Double {
         let high = a * b;
         Double {

@@ -268,7 +268,7 @@ enum Flat {
 }
 
 impl Field {
-    /// The field in the form of a Parquet column, for names, kinds and paths.
+    /// The field as a node of the schema tree that Parquet columns have. Names, kinds and paths of columns are computed from it; all levels are 0.
     pub(super) fn node(&self) -> Node {
         let leaf = |kind| NodeKind::Leaf {
             column: self.buffer,

@@ -9,8 +9,8 @@ use crate::signal_facts::{SignalFacts, TaxelFacts, ValueCount};
 pub(super) static CHECK: Check = Check {
     code: "TAC017",
     name: "clipped-taxel",
-    looks_for: "taxels clipped at their greatest or least number, which occurs in 1 % of the samples and three times as often as the next number",
-    hint: "press with less force, or lower the gain of the converter: the signal beyond the limit is lost, and models learn a constant there; if the number marks a missing value, list it as `placeholders` in [signals] of the map",
+    looks_for: "taxels clipped at their greatest or least value: it occurs in at least 1 % of the samples, and over three times as often as the nearest other value",
+    hint: "press with less force, or lower the gain of the converter: the signal beyond the limit is lost, and models learn a constant there; if the value marks a missing reading, list it as `placeholders` in [signals] of the map",
     reads: Some(Field::Signals),
     find,
 };
@@ -60,7 +60,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         .into_iter()
         .map(|(position, end)| {
             let named = named(position, end.own);
-            format!("{named}, and the next number is {}", end.next)
+            format!("{named}, and the nearest other value is {}", end.next)
         })
         .collect();
     let said = [

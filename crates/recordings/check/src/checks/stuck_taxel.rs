@@ -8,7 +8,7 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC016",
     name: "stuck-taxel",
-    looks_for: "taxels with the same number in every sample",
+    looks_for: "taxels with the same value in every sample",
     hint: "check the wire and the address of the taxel; a model gives a constant no weight, so contact there is not seen",
     reads: Some(Field::Signals),
     find,

@@ -95,7 +95,7 @@ fn a_number_far_from_all_others_is_called_a_code_for_nothing_measured() {
         );
         assert!(message.starts_with(&start), "{message}");
         assert!(
-            message.contains("samples, and the next number is "),
+            message.contains("samples, and the nearest other value is "),
             "{message}"
         );
     }

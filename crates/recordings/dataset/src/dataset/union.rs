@@ -75,12 +75,12 @@ impl Dataset {
     /// Joins `recordings` in their order. A single recording is returned unchanged.
     ///
     /// Names of samples and contact points get the name of their recording as prefix (`monday/p3`), so that equal names of different recordings remain
-    /// distinct. Frames and signals are read from the original files; only labels are copied. The digest is a function of the digests in order. Gel, serial
-    /// number, camera settings, attributes, pictures without contact and clocks may differ between recordings.
+    /// distinct. Frames and signals are read from the original files; only labels are copied. The digest of the result is computed from the digests of the
+    /// recordings, in their order. Gel, serial number, camera settings, attributes, pictures without contact and clocks may differ between recordings.
     ///
     /// # Errors
-    /// [`DatasetError::Unlike`] for recordings that share samples. Also for different sources, sensor models, opacity, footprints, channels, units,
-    /// kinds and sizes of frames or signals, or definitions of a task. [`DatasetError::Request`] if `recordings` is empty.
+    /// [`DatasetError::Unlike`] for recordings that share samples, or that differ in source, sensor model, opacity, footprint, channels, units, kind or size
+    /// of frames or signals, or the definition of a task. [`DatasetError::Request`] if `recordings` is empty.
     pub fn joined(recordings: Vec<Dataset>) -> Result<Dataset, DatasetError> {
         let mut recordings = recordings;
         if recordings.len() < 2 {

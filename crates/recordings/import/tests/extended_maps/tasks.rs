@@ -206,7 +206,10 @@ fn names_twice_and_a_positive_that_is_no_name_are_refused_with_the_line() {
         "[\"no_slip\", \"slip\"]",
         "[\"no_slip\", \"slip\", \"stick\"]",
     );
-    assert!(message.contains("`event` has two names"), "{message}");
+    assert!(
+        message.contains("kind `event` needs two names"),
+        "{message}"
+    );
     let message = refused_with("\"felt\", \"denim\", \"wool\"", "\"felt\"");
     assert!(
         message.contains("`names` has 1 class, expected 2 to 4096"),

@@ -52,7 +52,7 @@ pub struct Addition {
 /// ```
 ///
 /// # Errors
-/// [`CatalogueFolderError`] if the bundle is not verified, is a draft or is in the catalogue already. Also for an invalid entry and for a file that
+/// [`CatalogueFolderError`] if the bundle is not verified, is a draft or is in the catalogue already, if an entry is invalid, or if a file
 /// cannot be written. After an error the catalogue is unchanged, unless only some of several entries could be written. Repeat the call to write
 /// the other entries.
 pub fn add(request: &AddRequest) -> Result<Addition, CatalogueFolderError> {

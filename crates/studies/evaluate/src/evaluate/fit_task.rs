@@ -14,7 +14,7 @@ use crate::work::Work;
 /// training, validation and test parts.
 ///
 /// # Errors
-/// [`EvaluateError`] for an unknown task, or a model that cannot predict a task of this kind. Also for a split that separates samples of one cluster
+/// [`EvaluateError`] for an unknown task, for a model that cannot predict a task of this kind, and for a split that separates samples of one cluster
 /// or fits several models. Otherwise errors of [`fit`].
 pub fn fit_task(
     dataset: &Dataset,

@@ -164,7 +164,7 @@ impl ScoreTables {
     /// Scores the rows of `shard`. The states of all shards merge to the same scores and state as one run over all rows.
     ///
     /// # Errors
-    /// [`EvaluateError`] at the first non-finite cell, unless such cells are allowed. Also for a key that repeats or is missing in one table.
+    /// [`EvaluateError`] at the first non-finite cell, unless such cells are allowed, and for a key that repeats or is missing in one table.
     pub fn score(
         &self,
         request: &ScoreRequest,

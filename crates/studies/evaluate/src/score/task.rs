@@ -91,7 +91,7 @@ struct RowPair {
 /// ```
 ///
 /// # Errors
-/// [`EvaluateError`] if a table cannot be read, rows do not pair, or a column is missing. Also for a cell that is not a class, number or rotation.
+/// [`EvaluateError`] if a table cannot be read, rows do not pair, a column is missing, or a cell is not a class, number or rotation.
 pub fn task_states(request: &TaskRequest) -> Result<TaskStates, EvaluateError> {
     check_names(request)?;
     if let Some(task) = request.tasks.iter().find(|of| of.kind == TaskKind::Depth) {

@@ -21,7 +21,10 @@ use crate::text::{SceneError, Setting};
 /// # Ok::<(), taceva_protocol::SceneError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "the result of a weight")]
+#[serde(
+    deny_unknown_fields,
+    expecting = "a table with the result of a weighing"
+)]
 pub struct Weighing {
     /// Mass of the weight, in g.
     pub mass_g: f64,

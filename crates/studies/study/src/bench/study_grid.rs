@@ -61,7 +61,7 @@ impl StudyGrid {
     /// Plans the scene in `text` with each combination and the first seed, ordered by points, then folds, then models.
     ///
     /// # Errors
-    /// [`StudyError`] for an invalid scene or combination, or an unknown study or model. Also for a scene that does not press on the simulated bench.
+    /// [`StudyError`] for an invalid scene or combination, an unknown study or model, and a scene that does not press on the simulated bench.
     pub fn entries(
         &self,
         text: &SceneText,

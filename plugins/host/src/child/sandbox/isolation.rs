@@ -50,7 +50,7 @@ impl fmt::Display for Isolation {
         }
         write!(f, ", {} MiB of memory", self.memory >> 20)?;
         if self.takes_code {
-            f.write_str(", it may load code at any time")?;
+            f.write_str(", may load code at any time")?;
         }
         if !self.needs.is_empty() {
             f.write_str(", may reach")?;
@@ -96,7 +96,7 @@ mod tests {
         };
         assert!(
             open.to_string()
-                .contains("MiB of memory, it may load code at any time, may reach")
+                .contains("MiB of memory, may load code at any time, may reach")
         );
         let bare = Isolation::default();
         assert!(!bare.is_whole());

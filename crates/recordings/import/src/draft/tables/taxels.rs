@@ -310,7 +310,7 @@ fn placeholders(columns: &[&SeenColumn]) -> Vec<(f64, String)> {
             let mut known = found.iter();
             if !known.any(|(known, _)| known.total_cmp(&value).is_eq()) {
                 let reason = format!(
-                    "{:?} is {value} in {count} of {rows} rows, and the next number is {nearest}",
+                    "{:?} is {value} in {count} of {rows} rows, and the nearest other value is {nearest}",
                     column.name
                 );
                 found.push((value, reason));

@@ -45,7 +45,7 @@ pub(super) fn problem_of_names(class: &ClassMap, kind: TaskKind) -> Option<Strin
     }
     if kind != TaskKind::Class && names.len() != 2 {
         return Some(format!(
-            "`{}` has two names, such as [\"no_slip\", \"slip\"]; for {} names write `kind = \"class\"`",
+            "a task of kind `{}` needs two names, such as [\"no_slip\", \"slip\"], found {}: write `kind = \"class\"` for more",
             kind.name(),
             names.len()
         ));
