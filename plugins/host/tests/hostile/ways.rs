@@ -91,7 +91,7 @@ ways! {
     a_factory_that_crashes: "factory_segv", Do::Load => Gone("signal 11");
     a_factory_that_is_null: "factory_null", Do::Load => Refused("sensor");
     a_factory_that_lies_nowhere: "factory_nowhere", Do::Load => Gone("signal 11");
-    a_description_that_lies: "describe_lies", Do::Load => Refused("the manifest says");
+    a_description_that_lies: "describe_lies", Do::Load => Refused("as in its factory");
     a_description_without_bytes: "describe_null", Do::Load => Refused("a text that is NULL");
     a_description_that_is_no_text: "describe_no_text", Do::Load => Refused("UTF-8");
     a_description_without_end: "describe_endless", Do::Load => Gone("did not start within");
