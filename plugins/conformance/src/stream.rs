@@ -203,7 +203,9 @@ pub(crate) fn interrupt<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), 
         let ended = Instant::now();
         let rang = match waited {
             // An interrupt before this call has no effect on it.
-            Ok(_) => (alarm.rang()).map(|rang| if rang < begun { ended } else { rang }),
+            Ok(_) => alarm
+                .rang()
+                .map(|rang| if rang < begun { ended } else { rang }),
             Err(error) if error.kind() == ErrorKind::Interrupted => Some(alarm.wait()?),
             Err(error) => return tried.reading(Err(error)),
         };
