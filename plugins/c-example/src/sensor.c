@@ -75,7 +75,7 @@ static taceva_status capture(void *handle, taceva_frame *frame, uint64_t timeout
   sensor *it = handle;
   if (!frame || frame->size < sizeof *frame) return failed(error, TACEVA_ABI, "`frame` is NULL or too short");
   if (!it->is_started) return failed(error, TACEVA_INVALID_ARGUMENT, "it is not started");
-  if (frame->buffer && frame->buffer_length < LENGTH) return failed(error, TACEVA_INVALID_ARGUMENT, "expected a buffer of 3072 bytes");
+  if (frame->buffer && frame->buffer_length < LENGTH) return failed(error, TACEVA_INVALID_ARGUMENT, "a frame does not fit: `frame` of plugin.toml differs from WIDTH, HEIGHT and format");
   taceva_status status = wait_until(&it->waiting, it->due_ns, timeout_ns, error);
   if (status != TACEVA_OK) return status;
   uint8_t *pixels = pixels_for(it, frame);

@@ -55,7 +55,9 @@ fn measures(tried: &Subject<'_>) -> Result<(), Unmet> {
             let is_force = matches!(axis, Axis::Fx | Axis::Fy | Axis::Fz);
             if let Some(most) = facts.force_max.filter(|_| is_force) {
                 expect(value.abs() < most.0, || {
-                    format!("{name} is {value} N, expected an error at {most} or more")
+                    format!(
+                        "{name} is {value:.1} N, expected an error at {most} or more; if no such force acts, correct the unit: `taceva rig check --weight` names a mistaken unit"
+                    )
                 })?;
             }
         }

@@ -201,18 +201,22 @@ pub(crate) fn interrupt<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), 
     loop {
         let waited = device.next(long);
         let ended = Instant::now();
-        match waited {
-            // The item came before the interrupt. The next call must work even if the interrupt reached this one.
-            Ok(_) if alarm.rang().is_none() => begun = ended,
-            Ok(_) => break,
-            Err(error) if error.kind() == ErrorKind::Interrupted => {
-                let at = alarm.wait()?.max(begun);
-                let late = ended.saturating_duration_since(at);
-                was_within("the wait after an interrupt", late, tried.trial.acts_within)?;
-                break;
-            }
+        let rang = match waited {
+            // An interrupt before this call has no effect on it.
+            Ok(_) => alarm
+                .rang()
+                .map(|rang| if rang < begun { ended } else { rang }),
+            Err(error) if error.kind() == ErrorKind::Interrupted => Some(alarm.wait()?),
             Err(error) => return tried.reading(Err(error)),
-        }
+        };
+        // An item before the interrupt: the next call must work even if the interrupt reached this one.
+        let Some(rang) = rang else {
+            begun = ended;
+            continue;
+        };
+        let late = ended.saturating_duration_since(rang.max(begun));
+        was_within("the wait after an interrupt", late, tried.trial.acts_within)?;
+        break;
     }
     next(tried, &mut *device)?;
     Ok(())

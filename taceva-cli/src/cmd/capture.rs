@@ -302,6 +302,10 @@ fn summarise(
         context.say(format_args!(
             "next: taceva check {path}, then taceva evaluate {path} --model ridge"
         ));
+    } else if state.without_force > 0 && state.without_force >= state.frames {
+        stderr::say(format_args!(
+            "warning: no frame has a force, so no contact was recorded; `taceva rig check` shows stamps of another clock and too low a rate"
+        ));
     } else {
         // A transducer that repeats one number from its first reading on is not detected at rest.
         stderr::say(format_args!(

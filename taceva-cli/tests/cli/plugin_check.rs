@@ -70,16 +70,10 @@ fn checks_are_reported_as_a_runner_of_tests_does() {
     assert_eq!(bench.run(nothing).code, 2);
 }
 
-#[test]
-fn stamps_of_a_real_plugin_in_microseconds_are_refused_by_rig_check_and_capture() {
-    let real = [
-        "EYE_SOURCE=\"real\"",
-        "WRIST_SOURCE=\"real\"",
-        "UNIT_NS=1000",
-    ];
-    let Some(bench) = with_plugin(&real) else {
-        return;
-    };
+/// A bench with the plugin of real devices, whose stamps have the `macros`, and `first.toml` with its transducer.
+fn with_real_plugin(macros: &[&str]) -> Option<Bench> {
+    let real = ["EYE_SOURCE=\"real\"", "WRIST_SOURCE=\"real\""];
+    let bench = with_plugin(&[&real[..], macros].concat())?;
     let path = bench.path("plugins/fixture/plugin.toml");
     let mut manifest = fs::read_to_string(path).expect("written");
     for title in ["an eye, by the manifest: words may differ", "wrist"] {
@@ -91,6 +85,25 @@ fn stamps_of_a_real_plugin_in_microseconds_are_refused_by_rig_check_and_capture(
         "first.toml",
         "rig_version = 1\n[force]\ndriver = \"org.example.fixture/wrist\"\naxes = [\"x\", \"y\", \"z\"]\n",
     );
+    Some(bench)
+}
+
+#[test]
+fn stamps_of_another_clock_are_a_problem_of_rig_check() {
+    let Some(bench) = with_real_plugin(&["UNIT_NS=1", "LAG_NS=-3600000000000"]) else {
+        return;
+    };
+    let ran = bench.run("rig check first.toml --plugin-dir plugins");
+    assert_eq!(ran.code, 1, "{}{}", ran.out, ran.err);
+    let words = "problem the force has stamps 3600 s ahead of the clock of this machine";
+    assert!(ran.out.contains(words), "{}", ran.out);
+}
+
+#[test]
+fn stamps_of_a_real_plugin_in_microseconds_are_refused_by_rig_check_and_capture() {
+    let Some(bench) = with_real_plugin(&["UNIT_NS=1000"]) else {
+        return;
+    };
     let unit = "they are probably microseconds where nanoseconds are expected";
     let ran = bench.run("rig check first.toml --plugin-dir plugins");
     assert_eq!(ran.code, 1, "{}{}", ran.out, ran.err);

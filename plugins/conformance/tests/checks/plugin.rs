@@ -152,6 +152,7 @@ fn every_kind_of_mistake_is_found_by_a_check() {
         ),
         (&["TOLD_WIDTH=4"], "sensor/gives-the-frames", "expected 8×6"),
         (&["DEAF", "BLOCK"], "sensor/interrupt", "too slow"),
+        (&["NAPS"], "sensor/interrupt", "the wait after an interrupt"),
         (&["BLOCK"], "sensor/gives-the-frames", "too slow"),
         (&["OVERRUNS"], "sensor/writes-no-further", "it wrote beyond"),
         (

@@ -92,6 +92,9 @@ impl fmt::Display for ChildError {
                 printed,
             } => {
                 write!(f, "the plugin `{plugin}` is gone: {fate}")?;
+                if matches!(fate, Fate::Late { .. }) {
+                    f.write_str("; if that call waits for its device, let it return in time")?;
+                }
                 match printed.trim() {
                     "" => Ok(()),
                     printed => write!(f, "; it printed last: {}", last_lines(printed)),

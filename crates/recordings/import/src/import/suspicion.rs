@@ -156,7 +156,7 @@ fn meant(plausible: &Plausible, said: &str, typical: f64) -> Vec<&'static str> {
 struct Odd {
     code: &'static str,
     magnitude: f64,
-    /// Median magnitude.
+    /// Magnitude for the choice of units: the median, or the 95th percentile if only this percentile is suspicious.
     typical: f64,
 }
 
@@ -188,16 +188,17 @@ fn odd(plausible: &Plausible, values: impl IntoIterator<Item = f64>) -> Option<O
     let largest = magnitudes[magnitudes.len() - 1];
     let median = magnitudes[magnitudes.len() / 2];
     let most = magnitudes[(magnitudes.len() - 1) * 19 / 20];
-    let (code, magnitude) = match () {
-        () if largest < plausible.small => ("magnitude-small", largest),
-        () if median > plausible.large => ("magnitude-large", median),
-        () if most > plausible.most => ("magnitude-large", most),
+    let (code, magnitude, typical) = match () {
+        () if largest < plausible.small => ("magnitude-small", largest, median),
+        () if median > plausible.large => ("magnitude-large", median, median),
+        // Most samples are without contact, so the median is noise.
+        () if most > plausible.most => ("magnitude-large", most, most),
         () => return None,
     };
     Some(Odd {
         code,
         magnitude,
-        typical: median,
+        typical,
     })
 }
 
@@ -261,6 +262,14 @@ mod tests {
             "one large one is no unit"
         );
         assert_eq!(perhaps(&Channel::FZ, "gf", [50.0, 120.0, 310.0]), None);
+        // Few presses of 2 N in gram-force, and noise between them.
+        let presses = (0..40).map(|at| if at % 8 == 0 { 204.0 } else { 0.3 });
+        let found = magnitude_suspicion(&Channel::FZ, presses).expect("too large");
+        assert!(
+            found.perhaps.contains("gf or mN but labelled N"),
+            "{}",
+            found.perhaps
+        );
     }
 
     #[test]

@@ -31,6 +31,8 @@ const STALE_PERIODS: f64 = 3.0;
 const STALE_MS: f64 = 50.0;
 /// Minimum ratio of the stated noise to the measured noise.
 const NOISE_PART: f64 = 0.5;
+/// Greatest age of a reading on arrival, in ms, that a device and its link explain.
+const LATE_MAX_MS: f64 = 10_000.0;
 
 /// Result of checking a rig.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
@@ -234,6 +236,11 @@ impl RigCheck {
     fn note(&mut self, device: &'static str, heard: &Stream, stated: Option<f64>) {
         if heard.count == 0 {
             self.problems.push(RigProblem::Unheard { device });
+        }
+        if heard.late_ms.abs() > LATE_MAX_MS {
+            let late_ms = heard.late_ms;
+            self.problems
+                .push(RigProblem::OtherClock { device, late_ms });
         }
         if let (Some(measured), Some(stated)) = (heard.noise, stated)
             && NOISE_PART * measured > stated

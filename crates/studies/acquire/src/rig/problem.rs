@@ -44,6 +44,13 @@ pub enum RigProblem {
         /// Noise that the driver states, in the same unit.
         stated: f64,
     },
+    /// The stamps of a device are from another clock than that of this machine.
+    OtherClock {
+        /// Name of the device: `force`, `robot` or `sensor`.
+        device: &'static str,
+        /// Greatest age of a reading on arrival, by its time stamp, in ms.
+        late_ms: f64,
+    },
     /// The file still has the origin and axes of a new file.
     Untaught,
     /// According to the rig file, the tip is inside the gel.
@@ -82,7 +89,14 @@ impl fmt::Display for RigProblem {
                 stated,
             } => write!(
                 f,
-                "the {device} has noise of {measured:.4}, but its driver states {stated:.4}: presses may be halted without cause; check for vibration"
+                "the {device} has noise of {measured:.4} {unit}, but its driver states {stated:.4} {unit}: presses may be halted without cause; check for vibration, changes of load and a mistaken unit",
+                unit = if *device == "force" { "N" } else { "mm" }
+            ),
+            RigProblem::OtherClock { device, late_ms } => write!(
+                f,
+                "the {device} has stamps {:.0} s {} the clock of this machine, so they are of another clock: let its driver add the least difference between arrival and stamp, or stamp readings on arrival (`now_ns` in C, `now` in Rust and Python)",
+                1e-3 * late_ms.abs(),
+                if *late_ms < 0.0 { "ahead of" } else { "behind" }
             ),
             RigProblem::Untaught => f.write_str(
                 "`origin_mm` and `axes` of [robot] still have the values of a new file, and the robot may move down instead of up: run `taceva rig teach`",
@@ -112,7 +126,8 @@ impl RigProblem {
             RigProblem::Failed { device, .. }
             | RigProblem::Certificate { device, .. }
             | RigProblem::Unheard { device }
-            | RigProblem::Noise { device, .. } => Some(device),
+            | RigProblem::Noise { device, .. }
+            | RigProblem::OtherClock { device, .. } => Some(device),
             RigProblem::Gaps { .. } => Some("force"),
             RigProblem::Untaught | RigProblem::InGel { .. } => Some("robot"),
             RigProblem::Unheld => Some("switch"),

@@ -13,7 +13,7 @@ pub struct Stream {
     pub rate_hz: f64,
     /// Longest gap between the time stamps of readings, in ms.
     pub gap_ms: f64,
-    /// Greatest age of a reading on arrival, by its time stamp, in ms.
+    /// Greatest age of a reading on arrival, by its time stamp, in ms; below 0 for stamps of a clock that is ahead.
     pub late_ms: f64,
     /// Greatest standard deviation of any component, in the unit of the reading; `None` for a device without numeric readings.
     pub noise: Option<f64>,
@@ -34,8 +34,12 @@ pub(super) struct Listener {
 impl Listener {
     /// Adds a reading with the time stamp `valid_s` that arrived at `now_s`, both in s.
     pub(super) fn hear(&mut self, valid_s: f64, now_s: f64) {
+        let late_s = now_s - valid_s;
+        self.late_s = match self.valid_s.is_empty() {
+            true => late_s,
+            false => self.late_s.max(late_s),
+        };
         self.valid_s.push(valid_s);
-        self.late_s = self.late_s.max(now_s - valid_s);
     }
 
     /// Adds the three components of a reading.
@@ -100,6 +104,10 @@ mod tests {
         // Three times 5.1 and twice 4.9: the variance is 0.012.
         let noise = stream.noise.expect("numbers");
         assert!((noise - 0.012_f64.sqrt()).abs() < 1e-9, "{noise}");
+        let mut ahead = Listener::default();
+        ahead.hear(31.0, 1.0);
+        ahead.hear(31.1, 1.2);
+        assert!((ahead.heard().late_ms + 29_900.0).abs() < 1e-6);
         let (mean, error) = listener.mean().expect("numbers");
         assert!((mean[1] - 5.02).abs() < 1e-9, "{mean:?}");
         assert!((error - (0.003_f64 / 5.0).sqrt()).abs() < 1e-9, "{error}");

@@ -135,7 +135,7 @@ fn resting(
         }
     }
     listener.mean().ok_or_else(|| {
-        AcquireError::Request("the force transducer sent no reading: check its cable".to_owned())
+        AcquireError::Request("the force transducer sent no reading with a stamp after the question: check its cable; `taceva rig check` without --weight shows stamps of another clock".to_owned())
     })
 }
 
