@@ -183,7 +183,10 @@ mod tests {
             let short = short.expect_err("cut off");
             assert_eq!(short.kind(), ErrorKind::Protocol, "{length} bytes");
             let message = short.to_string();
-            assert!(message.contains("expected at least 20 for 4×2 YUYV"), "{message}");
+            assert!(
+                message.contains("expected at least 20 for 4×2 YUYV"),
+                "{message}"
+            );
             assert!(
                 message.ends_with("5 pictures were missed and 3 were damaged"),
                 "{message}"
