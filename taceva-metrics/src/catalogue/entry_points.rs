@@ -38,8 +38,8 @@ impl Evaluator {
 impl Evaluation {
     /// Combines the scores of `parts` into one evaluation, in the order of reports. `skipped` lists metrics that no part contains.
     ///
-    /// Use this function for metrics computed on different samples: sums are not merged. The skill of a channel, from any part, sets the standing of
-    /// the channel's scores.
+    /// Use this function if the parts come from different samples, because their sums are not merged. The skill of a channel in any part sets the
+    /// standing of all scores of the channel.
     pub fn joined(
         parts: impl IntoIterator<Item = Evaluation>,
         skipped: Vec<Skipped>,

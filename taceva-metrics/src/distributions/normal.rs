@@ -33,7 +33,7 @@ pub fn above(z: f64) -> f64 {
     }
 }
 
-/// The density at z.
+/// Density of the standard normal distribution at z.
 ///
 /// ```
 /// use taceva_metrics::distributions::normal;
@@ -44,7 +44,7 @@ pub fn density(z: f64) -> f64 {
     exponential(-z * z / 2.0) / TAU.sqrt()
 }
 
-/// Quantile: z with P(Z ≤ z) = `share`; infinite for 0 and 1, NaN outside 0..1.
+/// Quantile: z with P(Z ≤ z) = `share` for a standard normal Z. The result is infinite for 0 and 1, and NaN outside 0..1.
 ///
 /// ```
 /// use taceva_metrics::distributions::normal;

@@ -30,7 +30,8 @@ impl Tails {
     }
 }
 
-/// Positive point with the tail probabilities `wanted`, to the last bit that `tails` resolves. Returns 0 or infinity at the ends.
+/// Positive point at which `tails` gives the probabilities `wanted`, to the last bit. Returns 0 if nothing is below the point, and infinity if
+/// nothing is above.
 pub(super) fn positive_quantile(wanted: Tails, tails: impl Fn(f64) -> Tails) -> f64 {
     let Tails { below, above } = wanted;
     if below.is_nan() || below < 0.0 || above < 0.0 {
