@@ -134,7 +134,7 @@ fn root(function: impl Fn(f64) -> f64, guess: f64) -> Option<f64> {
     None
 }
 
-/// Half-width r for which a normal number is within `off` ± r with probability `share`.
+/// Half-width r for which a standard normal number is within `off` ± r with probability `share`.
 fn half_width(off: f64, share: f64) -> f64 {
     let missed = |r: f64| normal::above(r - off) + normal::above(r + off);
     let density = |r: f64| normal::density(r - off) + normal::density(r + off);

@@ -33,7 +33,7 @@ pub(crate) struct Accumulator {
     clusters: Clusters<ErasedSums>,
     interval_method: IntervalMethod,
     clustered_by: ClusteredBy,
-    /// Parameters of states: the periods of angles, and the centres for unwrapping them.
+    /// Parameters that merged states must share: periods of angles, and the centres about which the angles are unwrapped.
     periods: BTreeMap<String, String>,
 }
 
