@@ -23,8 +23,8 @@ pub struct Case {
     pub order: Order,
 }
 
-/// Distribution of truth y and estimate ŷ. The generator draws y first, then ŷ. `noise` is approximately the standard deviation of ŷ − y, or of ŷ /
-/// y in [`WideNear`](Kind::WideNear).
+/// Distribution of truth y and estimate ŷ. The generator draws y first, then ŷ. `noise` is approximately the standard deviation of ŷ − y. In
+/// [`WideNear`](Kind::WideNear) it is that of ŷ / y.
 ///
 /// ```
 /// use taceva_metrics::bench::{Case, Kind, Order};

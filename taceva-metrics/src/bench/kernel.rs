@@ -72,7 +72,7 @@ impl Kernel {
         }
     }
 
-    /// True if the kernel rounds sums only at the end.
+    /// True if the kernel sums exactly and rounds only the scores.
     pub fn is_exact(self) -> bool {
         matches!(self, Kernel::Exact(_))
     }

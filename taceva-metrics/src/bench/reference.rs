@@ -45,7 +45,7 @@ struct Whole {
 }
 
 impl Whole {
-    /// `value` in units of the least denormal number.
+    /// `value` as a whole multiple of the least denormal number.
     fn of(value: f64) -> Whole {
         let bits = value.to_bits();
         let field = bits >> 52 & 0x7ff;
@@ -223,7 +223,7 @@ fn added(left: &[u32], right: &[u32]) -> Vec<u32> {
     sum
 }
 
-/// `left` minus `right`; `right` must not exceed `left`.
+/// Difference `left` − `right` of two whole numbers; `right` must not exceed `left`.
 fn taken(left: &[u32], right: &[u32]) -> Vec<u32> {
     let mut borrowed = 0_i64;
     left.iter()

@@ -7,7 +7,7 @@ use crate::evaluate::metric::Metric;
 use crate::evaluate::{Evaluation, Evaluator, MetricPlan};
 
 impl MetricPlan {
-    /// Plan with the metrics of `wanted` that these channels and fields allow, in the order of reports.
+    /// Plan with the metrics of `wanted` that the `channels` and the `available` fields allow, in the order of reports.
     pub fn new(wanted: &[&'static Metric], channels: Channels, available: FieldSet) -> MetricPlan {
         MetricPlan::of(&ALL, wanted, channels, available)
     }

@@ -89,7 +89,7 @@ fn details(axes: &[Axis<'_>], output: &Output) -> Details {
     }
 }
 
-/// Squared errors of the model and of the constant, both multiplied by `scale`.
+/// Squared errors of the model and of the constant prediction, both multiplied by `scale`.
 struct Parts {
     scale: Dyadic,
     unexplained: Dyadic,

@@ -76,7 +76,7 @@ pub fn quantile(share: f64) -> f64 {
     z.copysign(off)
 }
 
-/// Quotient of two polynomials, constant term first. The constant term of the divisor is 1.
+/// Quotient of two polynomials, with coefficients from the constant term up. The constant term of the divisor is 1.
 struct Quotient {
     above: [f64; 8],
     below: [f64; 7],

@@ -1,4 +1,4 @@
-//! Integrals of smooth functions by the ten-point Gauss–Legendre rule in each panel.
+//! Integrals of smooth functions. The range is divided into panels, each integrated by the ten-point Gauss–Legendre rule.
 
 /// Points of the rule in one half of a panel: distance from the middle of the panel, and weight. Both are fractions of half the width.
 const POINTS: [[f64; 2]; 5] = [

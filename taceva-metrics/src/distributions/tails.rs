@@ -50,7 +50,7 @@ pub(super) fn positive_quantile(wanted: Tails, tails: impl Fn(f64) -> Tails) -> 
     })
 }
 
-/// Least positive number for which `is_reached` is true. `is_reached` must be monotonic.
+/// Least positive number for which `is_reached`, a monotonic condition, is true. Returns infinity if no number reaches the condition.
 pub(super) fn least_where(is_reached: impl Fn(f64) -> bool) -> f64 {
     let mut high = 1.0_f64;
     while !is_reached(high) {

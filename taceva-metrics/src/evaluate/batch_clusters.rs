@@ -13,7 +13,7 @@ use crate::stats::row_groups::{Grouped, Groups};
 /// Least number of rows for which sorting a batch saves time.
 const LEAST_ROWS: usize = 512;
 
-/// A batch sorted by contact point, or by cluster of points, so that the rows of a cluster are adjacent.
+/// A batch sorted by contact point, or by hash of the contact point, so that the rows of a cluster are adjacent.
 pub(crate) struct SideBySide {
     pub(crate) batch: Batch,
     groups: Groups,

@@ -268,7 +268,7 @@ impl Evaluator {
     }
 }
 
-/// Number of items of an iterator; `None` if its size hint is not exact.
+/// Number of items of an iterator; `None` if the iterator does not know this number exactly.
 fn certain(items: &impl Iterator) -> Option<usize> {
     let (least, most) = items.size_hint();
     most.filter(|most| *most == least)

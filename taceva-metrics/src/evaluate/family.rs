@@ -57,7 +57,7 @@ impl FamilyKind {
 /// # Laws
 /// The sums of [`deposit`](Family::deposit) must be a function of the set of rows: neither their order nor their grouping may matter.
 pub(crate) trait Family: Send + 'static {
-    /// Sums of one part: a channel, a plane, a kind of grating, or everything at once.
+    /// Sums of one part. A part is a channel, a plane, a kind of grating, or all samples together.
     type Sums: Merge + Clone + Send + 'static;
 
     /// Parameters that must be equal in merged states; none by default.
@@ -93,7 +93,7 @@ pub(crate) trait Family: Send + 'static {
     fn resampled(&self, metric: &Metric, output: &Output, sums: &Self::Sums) -> Numbers {
         self.numbers(metric, output, sums)
     }
-    /// Joint numbers of `metric` from the `sums` of all parts; `None` to use the mean of the parts' numbers.
+    /// Value and variants of `metric` computed from the `sums` of all parts together. `None` if the mean over the parts applies.
     fn joint(&self, _metric: &Metric, _output: &Output, _sums: &[Self::Sums]) -> Option<Numbers> {
         None
     }
@@ -101,7 +101,7 @@ pub(crate) trait Family: Send + 'static {
     fn inapplicable(&self, _metric: &Metric, _output: &Output) -> Option<InapplicableReason> {
         None
     }
-    /// Details of a score other than its numbers, from the sums of all its parts.
+    /// Maps, counts, constants and flags of a score, from the sums of all its parts.
     fn details(&self, _metric: &Metric, _output: &Output, _parts: &[&Self::Sums]) -> Details {
         Details::default()
     }

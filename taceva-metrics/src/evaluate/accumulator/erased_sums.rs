@@ -32,7 +32,7 @@ fn typed<S: 'static>(parts: &dyn Any) -> &Vec<S> {
     parts.downcast_ref().expect(ONE_FAMILY)
 }
 
-/// Panic message of a failed downcast. A failure is impossible: the single family of an accumulator created all its parts.
+/// Panic message for sums of another type. The family of an accumulator creates all its sums, so the panic is impossible.
 const ONE_FAMILY: &str = "parts of one family";
 
 impl ErasedSums {

@@ -11,7 +11,7 @@ use crate::score::value::{Finished, UndefinedReason};
 use crate::stats::jackknife::{self, LeftOut};
 use crate::stats::{Estimated, PoissonBootstrap};
 
-/// A cluster: the hash or index of its name, and the sums of each part.
+/// A cluster: its key, which is the hash or index of its name, and the sums of each part.
 pub(super) type Cell<'a> = (u64, &'a ErasedSums);
 
 /// Calls `visit` with the sums of each cluster and the sums of all other clusters.
