@@ -1,8 +1,8 @@
-//! Summation kernels for comparison with the exact kernel in time and accuracy, and test inputs on which they differ. Requires the feature `bench`.
+//! Algorithms (kernels) for MAE, R² and sMAPE, with inputs that expose their rounding errors. Requires the feature `bench`.
 //!
-//! Every [`Kernel`] computes MAE, R² and sMAPE of two columns under one signature. A caller can measure the run time, count correct
-//! [`digits`], and check that the result survives [`shuffled`] rows. No code in this module reads a clock. The run time of
-//! [`stream_sum`], which only reads both columns, is the lower bound of all run times.
+//! Every [`Kernel`] reads two columns and returns three scores. A caller can measure the run time, count correct [`digits`], and check that
+//! [`shuffled`] rows give the same scores. No code in this module reads a clock. The run time of [`stream_sum`], which only reads both columns, is
+//! the lower bound of all run times.
 //!
 //! ```
 //! use taceva_metrics::bench::{Kernel, digits, nasty_inputs, shuffled};

@@ -68,7 +68,7 @@ pub static ALL: [&Metric; 28] = [
     &DRIFT,
 ];
 
-/// Names of groups of metrics.
+/// Groups of metrics, by name.
 pub static GROUPS: [(&str, &[&Metric]); 2] = [
     ("accuracy", &[&mae::MAE, &r2::R2, &smape::SMAPE]),
     ("all", &ALL),
@@ -77,7 +77,7 @@ pub static GROUPS: [(&str, &[&Metric]); 2] = [
 /// Former names of metrics, each with the present name.
 const RENAMED: [(&str, &str); 1] = [("minimum_detectable_force", "noise_equivalent_force")];
 
-/// Names in other programs, in lower case, each with the metric of most similar meaning.
+/// Names of metrics in other programs, in lower case, each with the metric of most similar meaning.
 const SYNONYMS: [(&str, &str); 9] = [
     ("mse", "rmse"),
     ("r^2", "r2"),

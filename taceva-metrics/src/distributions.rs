@@ -1,6 +1,6 @@
-//! Distributions of statistics of normal samples, to about 14 digits: tail probabilities and quantiles.
+//! Distributions of statistics of normal samples: tail probabilities and quantiles, to about 14 digits.
 //!
-//! The code uses only + − × ÷ and √, which IEEE 754 rounds equally everywhere. An argument outside the domain gives NaN.
+//! The code uses only + − × ÷ and √, which IEEE 754 defines to the last bit. An argument outside the domain gives NaN.
 //!
 //! ```
 //! use taceva_metrics::distributions::{chi_square, f_ratio, normal, student_t};
@@ -32,7 +32,7 @@ pub use quadrature::integral;
 mod tests {
     use super::*;
 
-    /// Fails unless both tails agree to twelve digits.
+    /// Panics unless both tails in `found` agree with `expected` to twelve digits.
     fn hold(found: [f64; 2], expected: [f64; 2], name: &str) {
         for (found, expected) in found.into_iter().zip(expected) {
             let off = (found / expected - 1.0).abs();

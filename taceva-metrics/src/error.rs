@@ -5,7 +5,7 @@ use std::fmt;
 
 use taceva_core::shown;
 
-/// Mismatch of columns, batches, states or settings.
+/// Error of an evaluation: columns, batches, states or settings that do not match.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Evaluator, MetricError};
@@ -19,18 +19,18 @@ use taceva_core::shown;
 pub enum MetricError {
     /// Two columns of different length.
     Lengths {
-        /// Rows of the estimate.
+        /// Number of rows of the estimate.
         estimate: usize,
-        /// Rows of the reference.
+        /// Number of rows of the reference.
         reference: usize,
     },
     /// Columns of different lengths in one batch.
     Rows {
         /// Column with a deviating length: a channel, or the contact points.
         what: String,
-        /// Rows of the first channel.
+        /// Number of rows of the first channel.
         expected: usize,
-        /// Rows found.
+        /// Number of rows of the column.
         found: usize,
     },
     /// A matrix whose number of columns differs from the number of channels.
@@ -39,7 +39,7 @@ pub enum MetricError {
         what: &'static str,
         /// Number of channels.
         expected: usize,
-        /// Columns found.
+        /// Number of columns found.
         found: usize,
     },
     /// A missing value in a column that needs a value in every row.
@@ -47,7 +47,7 @@ pub enum MetricError {
         /// Index of the row, from 0.
         row: usize,
     },
-    /// A batch or a state with other channels.
+    /// A batch or a state whose channels differ from the evaluated channels.
     Channels {
         /// Evaluated channels, with their units.
         expected: String,
@@ -61,13 +61,13 @@ pub enum MetricError {
         /// Schema of the state.
         found: String,
     },
-    /// A state computed with another parameter.
+    /// A state computed with another value of a parameter.
     Parameter {
         /// Name of the parameter.
         name: &'static str,
-        /// Value of the evaluator.
+        /// Value in the evaluator.
         expected: String,
-        /// Value of the state.
+        /// Value in the state.
         found: String,
     },
     /// A setting outside its allowed range.
@@ -83,7 +83,7 @@ pub enum MetricError {
     Malformed {
         /// Schema of the state.
         schema: &'static str,
-        /// Fault of the state.
+        /// Description of the mismatch.
         what: String,
     },
 }

@@ -1,15 +1,15 @@
-//! Reads both columns at memory bandwidth, which limits every kernel.
+//! Sum of two columns at memory bandwidth, the lower bound of the run time of every kernel.
 
 use taceva_core::Isa;
 
 use crate::exact::{Job, Machine, Vector};
 use crate::pair::Paired;
 
-/// Independent sums per column, so that an addition need not wait for the previous addition.
+/// Number of independent partial sums per column. An addition need not wait for the result of the previous addition.
 const IN_FLIGHT: usize = 4;
 
-/// Rounded sum of all values of both columns, with eight vector sums in flight on the widest available vectors. The run time is the lower
-/// bound for reading the columns from memory.
+/// Rounded sum of all values of both columns, in eight independent vector sums with the widest available vectors. The run time is a lower bound for
+/// reading both columns from memory.
 pub fn stream_sum(pairs: Paired<&[f64]>) -> f64 {
     let widest = Isa::available().into_iter().find_map(Machine::with);
     widest.unwrap_or_else(Machine::detect).run(Reading(pairs))

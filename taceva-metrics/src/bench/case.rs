@@ -1,9 +1,9 @@
-//! Test inputs as cases: a few numbers from which every machine computes bit-identical columns.
+//! Test cases: a few numbers each, from which every machine computes bit-identical columns of truth and estimate.
 
 use super::numbers::Numbers;
 use crate::pair::Paired;
 
-/// Recipe for two columns. A plain value, which gets no further fields.
+/// Recipe for a column of truth (`reference`) and a column of estimates (`estimate`). A plain value, which gets no further fields.
 ///
 /// ```
 /// use taceva_metrics::bench::{Kind, Order, Case};
@@ -13,17 +13,18 @@ use crate::pair::Paired;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Case {
-    /// Kind of values.
+    /// Distribution of truth and estimate.
     pub kind: Kind,
     /// Number of rows.
     pub rows: usize,
-    /// Seed of the generator.
+    /// Seed of the random numbers.
     pub seed: u64,
     /// Order of the rows.
     pub order: Order,
 }
 
-/// Kind of values. y is drawn first, then ŷ; `noise` is approximately the standard deviation of ŷ − y, or of ŷ / y.
+/// Distribution of truth y and estimate ŷ. The generator draws y first, then ŷ. `noise` is approximately the standard deviation of ŷ − y. In
+/// [`WideNear`](Kind::WideNear) it is that of ŷ / y.
 ///
 /// ```
 /// use taceva_metrics::bench::{Case, Kind, Order};
@@ -33,92 +34,92 @@ pub struct Case {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Kind {
-    /// y uniform between two values, ŷ near y: typical laboratory data.
+    /// Typical laboratory data: truth uniform between two values, estimate near the truth.
     Lab {
-        /// The least y.
+        /// Least truth.
         low: f64,
-        /// The greatest y.
+        /// Greatest truth.
         high: f64,
-        /// Approximate standard deviation of ŷ − y.
+        /// Approximate standard deviation of estimate − truth.
         noise: f64,
     },
-    /// Like `Lab`, but far from zero, where the textbook formula of SST cancels.
+    /// Like `Lab`, plus an offset. Far from zero, the textbook formula of the total sum of squares loses digits by cancellation.
     Offset {
-        /// Distance from zero.
+        /// Number that is added to every truth and estimate.
         offset: f64,
-        /// Least y before the offset is added.
+        /// Least truth before the offset is added.
         low: f64,
-        /// Greatest y before the offset is added.
+        /// Greatest truth before the offset is added.
         high: f64,
-        /// Approximate standard deviation of ŷ − y.
+        /// Approximate standard deviation of estimate − truth.
         noise: f64,
     },
-    /// y and ŷ with exponents between two limits.
+    /// Truth and estimate with independent random binary exponents between two limits.
     Wide {
-        /// The least exponent.
+        /// Least binary exponent.
         low: i32,
-        /// The greatest exponent.
+        /// Greatest binary exponent.
         high: i32,
     },
-    /// y with exponents between two limits, ŷ near y.
+    /// Truth with a random binary exponent between two limits, estimate near the truth.
     WideNear {
-        /// The least exponent.
+        /// Least binary exponent of the truth.
         low: i32,
-        /// The greatest exponent.
+        /// Greatest binary exponent of the truth.
         high: i32,
-        /// Approximate standard deviation of ŷ / y.
+        /// Approximate standard deviation of estimate / truth.
         noise: f64,
     },
-    /// Every second y is the negative of the previous y, so the sum of y is exactly zero.
+    /// Every second truth is the negative of the previous truth. For an even number of rows, the sum of the truth is exactly zero.
     Cancelling {
-        /// The least exponent.
+        /// Least binary exponent of the truth.
         low: i32,
-        /// The greatest exponent.
+        /// Greatest binary exponent of the truth.
         high: i32,
-        /// Approximate standard deviation of ŷ − y.
+        /// Approximate standard deviation of estimate − truth.
         noise: f64,
     },
-    /// y and ŷ below the smallest normal number.
+    /// Truth and estimate with magnitudes below the smallest normal number of binary64.
     Denormal,
-    /// Constant y, ŷ near y.
+    /// Constant truth, estimate near the truth.
     Constant {
-        /// Value of y.
+        /// Value of every truth.
         value: f64,
-        /// Approximate standard deviation of ŷ.
+        /// Approximate standard deviation of the estimates.
         noise: f64,
     },
-    /// Constant y, and ŷ equal to y.
+    /// Constant truth, estimate equal to the truth.
     Met {
-        /// Value of y and ŷ.
+        /// Value of every truth and estimate.
         value: f64,
     },
-    /// Like `Lab`, rounded to binary32.
+    /// Like `Lab`, with truth and estimate rounded to binary32.
     Single {
-        /// The least y.
+        /// Least truth.
         low: f64,
-        /// The greatest y.
+        /// Greatest truth.
         high: f64,
-        /// Approximate standard deviation of ŷ − y.
+        /// Approximate standard deviation of estimate − truth.
         noise: f64,
     },
-    /// y in whole thousandths.
+    /// Truth in whole thousandths, estimate near the truth.
     Thousandths {
-        /// The least y in thousandths.
+        /// Least truth in thousandths.
         low: i32,
-        /// The greatest y in thousandths.
+        /// Greatest truth in thousandths.
         high: i32,
-        /// Approximate standard deviation of ŷ − y.
+        /// Approximate standard deviation of estimate − truth.
         noise: f64,
     },
-    /// y uniform between two values, errors with exponents between two limits.
+    /// Truth uniform between two values; errors with random binary exponents between two limits.
     SmallErrors {
-        /// The least y.
+        /// Least truth.
         low: f64,
-        /// The greatest y.
+        /// Greatest truth.
         high: f64,
-        /// The least exponent of an error.
+        /// Least binary exponent of an error.
         least: i32,
-        /// The greatest exponent of an error.
+        /// Greatest binary exponent of an error.
         greatest: i32,
     },
 }
@@ -132,18 +133,18 @@ pub enum Kind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Order {
-    /// Order of generation.
+    /// Rows in the order of generation.
     AsMade,
-    /// Reversed order of generation.
+    /// Rows in reverse order of generation.
     Reversed,
-    /// Ascending by y, then by ŷ.
+    /// Rows in ascending order of truth, then of estimate.
     Sorted,
-    /// Shuffled, with this seed.
+    /// Rows in random order, determined by this seed.
     Shuffled(u64),
 }
 
 impl Case {
-    /// Columns of the case.
+    /// Computes the columns of truth and estimate.
     pub fn columns(&self) -> Paired<Vec<f64>> {
         let mut random = Numbers::new(self.seed);
         let mut rows: Vec<(f64, f64)> = Vec::with_capacity(self.rows);
@@ -168,7 +169,7 @@ impl Case {
 }
 
 impl Kind {
-    /// y and ŷ of one row; `before` is the y of the previous row.
+    /// Truth and estimate of one row. `before` is the truth of the previous row.
     fn draw(self, row: usize, before: Option<f64>, random: &mut Numbers) -> (f64, f64) {
         match self {
             Kind::Lab { low, high, noise } => {
@@ -230,7 +231,7 @@ fn to_single(value: f64) -> f64 {
     f64::from(value as f32)
 }
 
-/// Cases that common summation algorithms compute wrongly, by name. The first case is harmless.
+/// Named cases that common summation algorithms compute inaccurately. The first case is typical laboratory data, for comparison.
 pub fn nasty_inputs() -> impl Iterator<Item = (&'static str, Case)> {
     let case = |kind, rows, order| Case {
         kind,

@@ -1,4 +1,4 @@
-//! Rounded running sums, some with compensation.
+//! Running sums that round at every addition, some with compensation of the rounding errors.
 
 /// A running sum.
 pub(super) trait RunningSum: Copy + Default {
@@ -8,7 +8,7 @@ pub(super) trait RunningSum: Copy + Default {
     fn total(self) -> f64;
 }
 
-/// Rounds at every addition.
+/// Running sum in binary64, rounded at every addition.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Plain(f64);
 
@@ -23,7 +23,7 @@ impl RunningSum for Plain {
     }
 }
 
-/// Rounds to binary32 at every addition, as models on a graphics card do.
+/// Running sum in binary32, rounded at every addition, as is usual on graphics cards.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Single(f32);
 
@@ -42,7 +42,7 @@ impl RunningSum for Single {
     }
 }
 
-/// Carries each rounding error into the next addition (Kahan 1965).
+/// Running sum that carries each rounding error into the next addition (Kahan 1965).
 #[derive(Clone, Copy, Default)]
 pub(super) struct Kahan {
     sum: f64,
@@ -63,7 +63,7 @@ impl RunningSum for Kahan {
     }
 }
 
-/// Sums the rounding errors separately (Neumaier 1974).
+/// Running sum of the numbers, with a separate sum of the rounding errors (Neumaier 1974).
 #[derive(Clone, Copy, Default)]
 pub(super) struct Neumaier {
     sum: f64,
@@ -87,7 +87,7 @@ impl RunningSum for Neumaier {
     }
 }
 
-/// Sum of `term` over all rows by recursive halving. Up to 128 rows are summed in order, as in numpy.
+/// Sum of `term` over all rows by recursive halving of the rows. Blocks of at most 128 rows are summed in order, as in numpy.
 pub(super) fn pairwise<T: Copy>(rows: &[T], term: &impl Fn(T) -> f64) -> f64 {
     if rows.len() <= 128 {
         return rows.iter().fold(0.0, |sum, &row| sum + term(row));

@@ -24,26 +24,26 @@ use crate::pair::Paired;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Kernel {
-    /// One pass in binary64, SST by the textbook formula: Σy² − (Σy)² / n.
+    /// One pass in binary64. The total sum of squares of the truth y over n rows is Σy² − (Σy)² / n.
     Naive,
     /// One pass as in `Naive`, with sums in binary32.
     Single,
-    /// Two passes: the mean of y first, then Σ(y − ȳ)².
+    /// Two passes: first the mean ȳ of the truth y, then Σ(y − ȳ)².
     TwoPass,
-    /// Two passes with sums by recursive halving, as in numpy.
+    /// Two passes, with sums by recursive halving of the rows, as in numpy.
     Pairwise,
-    /// One pass with Kahan's sums.
+    /// One pass with the compensated sums of Kahan.
     Kahan,
-    /// One pass with Neumaier's sums.
+    /// One pass with the compensated sums of Neumaier.
     Neumaier,
-    /// One pass, SST by Welford's update.
+    /// One pass, with the total sum of squares of the truth by the update of Welford.
     Welford,
-    /// Exact sums of this crate, with the vectors of an instruction set.
+    /// Exact sums of this crate, computed with this instruction set.
     Exact(Isa),
 }
 
 impl Kernel {
-    /// Kernels that this machine can run. Exact kernels are last, widest vectors first.
+    /// Kernels that this machine can run: first the kernels that round, then the exact kernels from the widest to the narrowest vectors.
     pub fn available() -> Vec<Kernel> {
         let rounding = [
             Kernel::Naive,
@@ -58,7 +58,7 @@ impl Kernel {
         rounding.into_iter().chain(exact).collect()
     }
 
-    /// Name in tables: `two-pass`, `exact avx2`.
+    /// Name of the kernel in tables, such as `two-pass` or `exact avx2`.
     pub fn name(self) -> String {
         match self {
             Kernel::Naive => "naive f64".to_owned(),
@@ -72,12 +72,12 @@ impl Kernel {
         }
     }
 
-    /// True if the kernel rounds sums only at the end.
+    /// True if the kernel sums exactly and rounds only the scores.
     pub fn is_exact(self) -> bool {
         matches!(self, Kernel::Exact(_))
     }
 
-    /// Computes MAE, R² and sMAPE.
+    /// Computes MAE, R² and sMAPE of `pairs`.
     ///
     /// # Shapes
     /// `pairs.estimate`, `pairs.reference`: equal length.
@@ -94,7 +94,7 @@ impl Kernel {
         }
     }
 
-    /// Computes only the mean absolute error; `None` if not finite.
+    /// Computes only the mean absolute error of `pairs`; `None` if the result is not finite.
     pub fn run_mae(self, pairs: Paired<&[f64]>) -> Option<f64> {
         match self {
             Kernel::Naive | Kernel::TwoPass | Kernel::Welford => mean_error::<Plain>(pairs),
@@ -112,13 +112,12 @@ impl Kernel {
         }
     }
 
-    /// True if the order of rows cannot change a bit of the result: a property of the algorithm, which equal results for some orders
-    /// would not prove.
+    /// True if the algorithm gives bit-identical scores for every order of rows. Equal scores for some orders would not prove this.
     pub fn is_order_free(self) -> bool {
         self.is_exact()
     }
 
-    /// Reference scores from integer sums in separate code, so that no kernel is compared with itself.
+    /// Exact scores of `pairs` by integer arithmetic. The code is separate from all kernels, so no kernel is compared with itself.
     pub fn truth(pairs: Paired<&[f64]>) -> Scores {
         reference::scores(pairs)
     }
@@ -139,7 +138,7 @@ fn spec(streams: Streams) -> PairSpec {
     }
 }
 
-/// Exact sums of `pairs` on `isa`, or on another set if `isa` is missing. The choice affects the run time but not the result.
+/// Exact sums of `pairs`, computed with `isa` or, if this machine lacks it, another instruction set. The instruction set changes only the run time.
 fn exact(isa: Isa, streams: Streams, pairs: Paired<&[f64]>) -> PairSums {
     let machine = Machine::with(isa).unwrap_or_else(Machine::detect);
     let mut sums = PairSums::with_machine(spec(streams), machine);

@@ -1,8 +1,9 @@
-//! Random numbers of cases, as the golden vectors define them.
+//! Random numbers of cases, in the sequence that the golden vectors use.
 
 use taceva_core::random::SplitMix64;
 
-/// Numbers of one case. Whole numbers are remainders, as in the generator of the golden vectors, with a bias below 2⁻³².
+/// Random numbers of one case. Whole numbers are remainders of 64-bit numbers, as in the generator of the golden vectors. Below 2³² their bias is
+/// below 2⁻³².
 #[derive(Debug)]
 pub(super) struct Numbers(SplitMix64);
 
@@ -11,7 +12,7 @@ impl Numbers {
         Numbers(SplitMix64::new(seed))
     }
 
-    /// A number below `bound`.
+    /// Random whole number from 0 to below `bound`.
     pub(super) fn below(&mut self, bound: u64) -> u64 {
         self.0.next_u64() % bound
     }
@@ -27,17 +28,17 @@ impl Numbers {
         }
     }
 
-    /// Number u with 0 ≤ u < 1, a multiple of 2⁻⁵³.
+    /// Random number u with 0 ≤ u < 1, a multiple of 2⁻⁵³.
     pub(super) fn unit(&mut self) -> f64 {
         self.0.unit()
     }
 
-    /// Approximately standard normal number: the sum of twelve numbers from 0 to 1, in order, minus 6.
+    /// Approximately standard normal random number: the sum of twelve numbers from [`Numbers::unit`], minus 6.
     pub(super) fn bell(&mut self) -> f64 {
         (1..12).fold(self.unit(), |sum, _| sum + self.unit()) - 6.0
     }
 
-    /// Number with any mantissa and sign, and an exponent from `low` to `high`.
+    /// Random number with any mantissa and sign, and a binary exponent from `low` to `high`.
     pub(super) fn wide(&mut self, low: i32, high: i32) -> f64 {
         let word = self.0.next_u64();
         let span = u64::try_from(high - low + 1).expect("exponents in order");

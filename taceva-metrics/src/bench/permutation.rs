@@ -1,4 +1,4 @@
-//! Columns in another order.
+//! Columns with their rows shuffled.
 
 use taceva_core::random::SplitMix64;
 

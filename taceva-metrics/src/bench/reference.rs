@@ -1,14 +1,14 @@
-//! Reference scores by integer arithmetic, in code independent of the measured sums.
+//! Exact scores by integer arithmetic, in code independent of the kernels.
 //!
-//! Residuals and terms of sMAPE follow the definitions, rounded once each. Both are whole multiples of the least denormal number, so their sums
-//! and squares are whole numbers too. Rounding happens only at the end.
+//! Each residual and each term of sMAPE is rounded once, as their definitions say. These numbers are multiples of the least denormal number, so
+//! they and their squares are summed as whole numbers. Rounding happens only at the end.
 
 use std::cmp::Ordering;
 
 use super::scores::Scores;
 use crate::pair::Paired;
 
-/// Exponent of the common unit: every value is a multiple of 2 to this power.
+/// Binary exponent of the least denormal number. Every finite value is a multiple of 2 to this power.
 const LEAST: i32 = -1074;
 
 /// Reference scores of `pairs`.
@@ -45,7 +45,7 @@ struct Whole {
 }
 
 impl Whole {
-    /// `value` in units of the least denormal number.
+    /// `value` as a whole multiple of the least denormal number.
     fn of(value: f64) -> Whole {
         let bits = value.to_bits();
         let field = bits >> 52 & 0x7ff;
@@ -149,7 +149,7 @@ impl Whole {
     }
 }
 
-/// The binary64 nearest to `above / below` × 2^`unit`; `None` if `below` is zero or the result is not finite.
+/// Binary64 number nearest to `above / below` × 2^`unit`; `None` if `below` is zero or the result is not finite.
 fn ratio(above: &Whole, below: &Whole, unit: i32) -> Option<f64> {
     if below.digits.is_empty() {
         return None;
@@ -223,7 +223,7 @@ fn added(left: &[u32], right: &[u32]) -> Vec<u32> {
     sum
 }
 
-/// `left` minus `right`; `right` must not exceed `left`.
+/// Difference `left` − `right` of two whole numbers; `right` must not exceed `left`.
 fn taken(left: &[u32], right: &[u32]) -> Vec<u32> {
     let mut borrowed = 0_i64;
     left.iter()

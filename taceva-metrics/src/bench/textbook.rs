@@ -4,7 +4,7 @@ use super::compensation::{RunningSum, pairwise};
 use super::scores::Scores;
 use crate::pair::Paired;
 
-/// Scores from rounded sums over n rows: absolute and squared residuals, SST, and terms of sMAPE.
+/// Scores from rounded sums over `n` rows: `absolute` and `squared` residuals, `total` sum of squares of the truth, and `symmetric` terms of sMAPE.
 fn finish(n: f64, absolute: f64, squared: f64, total: f64, symmetric: f64) -> Scores {
     Scores {
         mae: number(absolute / n),

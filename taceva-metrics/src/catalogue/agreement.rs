@@ -14,7 +14,7 @@ use crate::score::value::{Finished, UndefinedReason};
 use crate::score::{Interval, Parameter};
 use crate::stats::{NormalSample, chance};
 
-/// Name of the slope and of its p value.
+/// Name of the variant with the slope of errors over the mean of truth and prediction.
 const SLOPE: &str = "slope";
 const SLOPE_P: &str = "slope_p";
 
@@ -73,7 +73,7 @@ fn agreement(errors: &Errors<'_>, unit: Unit) -> Numbers {
         .with(SLOPE_P, Unit::One, Range::Any, chance)
 }
 
-/// Replaces the intervals of independent errors by exact intervals, and computes the p value of the slope of clustered errors.
+/// For independent errors, replaces the intervals by exact intervals. For clustered errors, computes the p value of the slope.
 fn settle(found: &mut Intervals, whole: &Whole<'_>) {
     let none = Interval::Undefined(UndefinedReason::NoInterval);
     if !whole.are_independent {
@@ -96,7 +96,7 @@ fn settle(found: &mut Intervals, whole: &Whole<'_>) {
     found.value = Some(of(widths, sample.freedom));
 }
 
-/// p value of a slope, by the jackknife over clusters.
+/// p value of `slope` under the hypothesis of no slope, from the jackknife standard error over clusters.
 fn chance_of(slope: Finished, interval: Option<Interval>) -> Finished {
     let slope = slope?;
     match interval {

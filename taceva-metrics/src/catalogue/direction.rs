@@ -17,7 +17,7 @@ impl Better {
         find(id).map(|metric| metric.better_of(variant))
     }
 
-    /// Name of a metric or variant with the sign of its direction. A name outside the catalogue is returned unchanged.
+    /// Name of a metric or variant with the arrow of its direction, such as `mae ↓`. A name outside the catalogue is returned unchanged.
     #[must_use]
     pub fn named(name: &str) -> String {
         Better::of(name).map_or_else(|| name.to_owned(), |better| better.beside(name))

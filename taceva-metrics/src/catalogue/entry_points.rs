@@ -7,7 +7,7 @@ use crate::evaluate::metric::Metric;
 use crate::evaluate::{Evaluation, Evaluator, MetricPlan};
 
 impl MetricPlan {
-    /// Plan with the metrics of `wanted` that these channels and fields allow, in the order of reports.
+    /// Plan with the metrics of `wanted` that the `channels` and the `available` fields allow, in the order of reports.
     pub fn new(wanted: &[&'static Metric], channels: Channels, available: FieldSet) -> MetricPlan {
         MetricPlan::of(&ALL, wanted, channels, available)
     }
@@ -38,8 +38,8 @@ impl Evaluator {
 impl Evaluation {
     /// Combines the scores of `parts` into one evaluation, in the order of reports. `skipped` lists metrics that no part contains.
     ///
-    /// Use this function for metrics computed on different samples: sums are not merged. The skill of a channel, from any part, sets the standing of
-    /// the channel's scores.
+    /// Use this function if the parts come from different samples, because their sums are not merged. The skill of a channel in any part sets the
+    /// standing of all scores of the channel.
     pub fn joined(
         parts: impl IntoIterator<Item = Evaluation>,
         skipped: Vec<Skipped>,

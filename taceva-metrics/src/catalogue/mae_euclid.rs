@@ -27,7 +27,7 @@ pub(crate) static MAE_EUCLID: Metric = Metric {
     ..Metric::of(&PLANE)
 };
 
-/// Sum of the distances divided by the number of samples, rounded once.
+/// Mean distance between predicted and true position in the plane, rounded once.
 fn mae_euclid(sums: &PlaneSums) -> Finished {
     if sums.n() == 0 {
         return Err(UndefinedReason::Empty);

@@ -1,4 +1,4 @@
-//! Force equivalent of the noise of predictions.
+//! Force that is equivalent to the noise of predictions without contact.
 
 use taceva_core::Unit;
 
@@ -13,7 +13,7 @@ use crate::score::theme::Theme;
 use crate::score::value::Finished;
 use crate::stats::noncentral::{critical_factor, detection_factor};
 
-/// k_α + k_β of Currie for risks of 5 % each and a known deviation: 2 × 1.645.
+/// Factor for a known standard deviation and risks of 5 % each: twice the normal quantile 1.645, k_α + k_β in Currie (1995).
 const KNOWN_DEVIATION: f64 = 3.29;
 /// The 97.5 % quantile of the normal distribution.
 const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
@@ -49,7 +49,7 @@ fn gate(_: Unit) -> Vec<Parameter> {
     }]
 }
 
-/// δ(n − 1) √(1 + 1/n) s for n predictions with the standard deviation s, δ by [`detection_factor`].
+/// Noise-equivalent force δ √(1 + 1/n) s for n predictions with the standard deviation s. δ is [`detection_factor`] for n − 1 degrees of freedom.
 fn noise_equivalent_force(predictions: &Moments, unit: Unit) -> Numbers {
     let times = |factor: fn(f64) -> f64| -> Finished {
         enough(predictions)?;
@@ -73,7 +73,7 @@ fn noise_equivalent_force(predictions: &Moments, unit: Unit) -> Numbers {
         .with("independent_high", unit, Range::Positive, high)
 }
 
-/// χ²/ν at the quantile whose normal deviate is `normal`, for ν = `freedom` ≥ 9, to within 1 %.
+/// Quantile of χ²/ν for ν = `freedom` ≥ 9 degrees of freedom, to within 1 %. Its probability is that of a standard normal number below `normal`.
 ///
 /// # Reference
 /// Wilson and Hilferty, Proceedings of the National Academy of Sciences 17 (1931).

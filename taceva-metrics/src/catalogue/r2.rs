@@ -32,7 +32,7 @@ pub(crate) static R2: Metric = Metric {
     ..Metric::of(&PAIRS)
 };
 
-/// 1 − n Σ d² / (n Σ y² − (Σ y)²) for residuals d and truths y, rounded once. The textbook formula is safe because only the result is rounded.
+/// R² = 1 − n Σ d² / (n Σ y² − (Σ y)²) for n residuals d and truths y, rounded once. Cancellation costs no digits, because the sums are exact.
 fn r2(sums: &PairSums) -> Finished {
     if sums.n() < R2.needs.least_samples {
         return Err(UndefinedReason::TooFew {

@@ -48,7 +48,7 @@ fn limit_factor(_: Unit) -> Vec<Parameter> {
     }]
 }
 
-/// Mean of the sample standard deviations of cells with at least two repeats, rounded once.
+/// Mean of the sample standard deviations over all groups of at least two repeats, rounded once.
 fn repeatability(spreads: &SpreadSums, unit: Unit) -> Numbers {
     let pooled = spreads.pooled();
     Numbers::of(spreads.mean(|spread| spread.deviation))

@@ -30,7 +30,7 @@ pub(crate) static RMSE: Metric = Metric {
     ..Metric::of(&PAIRS)
 };
 
-/// Root of the exact mean of squared residuals, rounded once, even if this mean is out of range.
+/// Root of the exact mean of squared residuals, rounded once, even if this mean exceeds the range of binary64.
 fn rmse(sums: &PairSums) -> Finished {
     Ok(sums.root_mean_square(Stream::Squared))
 }

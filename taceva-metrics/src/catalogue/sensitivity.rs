@@ -1,4 +1,4 @@
-//! Compliance of the gel. A more compliant gel is not necessarily better, so the score has no good direction.
+//! Compliance of the gel. A more compliant gel is not necessarily better, so neither high nor low scores are good.
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
@@ -39,7 +39,7 @@ pub(crate) static SENSITIVITY: Metric = Metric {
     ..Metric::of(&SURFACE)
 };
 
-/// Mean of the compliances Δz / F, indentation over normal force. The slope is Σ Δz F / Σ F².
+/// Mean compliance Δz / F over the samples in contact, mm/N: indentation Δz over normal force F. The variant `slope` is Σ Δz F / Σ F².
 fn sensitivity(sums: &SurfaceSums) -> Numbers {
     let unit = Unit::MillimetrePerNewton;
     let slope = contact(sums).map(|()| {

@@ -37,8 +37,8 @@ pub(crate) static SIGNAL_TO_REPEATABILITY: Metric = Metric {
     ..Metric::of(&REPEATS)
 };
 
-/// Spread of the cell means beyond the scatter of repeats, divided by the pooled spread of repeats. 0 if the scatter of repeats explains the
-/// spread of the means.
+/// Spread of group means beyond the scatter of repeats, divided by the pooled spread of repeats. A group is the repeats of one press. The ratio is
+/// 0 if the scatter of repeats explains the spread of the means.
 fn signal_to_repeatability(spreads: &SpreadSums) -> Numbers {
     let ratio = || -> Finished {
         let (signal, noise) = (spreads.signal()?, spreads.pooled()?);

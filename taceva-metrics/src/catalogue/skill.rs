@@ -45,12 +45,12 @@ pub(crate) static SKILL: Metric = Metric {
     ..Metric::of(&PAIRS)
 };
 
-/// Streams that skill needs.
+/// Sums of pairs that skill needs.
 const STREAMS: Streams = Streams::of(&[Stream::Squared, Stream::Truth, Stream::TruthSquared]);
 
-/// 1 − (squared errors of the model) / (squared errors of the constant), each summed over the axes, rounded once.
+/// Skill: 1 − (squared errors of the model) / (squared errors of the constant prediction), each summed over the axes, rounded once.
 ///
-/// Each axis has its own number of pairs. If both axes have all pairs, both sums are sums of squared distances in the plane.
+/// Each axis of a plane has its own number of pairs. If both axes have all pairs, both sums are sums of squared distances in the plane.
 fn skill(axes: &[Axis<'_>]) -> Finished {
     let mut total = Parts {
         scale: Dyadic::from(1),
@@ -68,13 +68,13 @@ fn skill(axes: &[Axis<'_>]) -> Finished {
     Ok((&total.spread - &total.unexplained).over(&total.spread))
 }
 
-/// Reference constant of a channel: the given constant, or the mean of truth; `None` for neither.
+/// Constant prediction for an axis: the given constant, or the mean of truth. `None` for an axis without both.
 fn constant(axis: Axis<'_>) -> Option<f64> {
     let mean = || (axis.sums.n() > 0).then(|| axis.sums.mean(Stream::Truth));
     axis.constant.or_else(mean)
 }
 
-/// Reference constant of one channel, with a flag if the constant is the mean of truth.
+/// Constant prediction of a score of one channel, and a flag if a constant is the mean of truth.
 fn details(axes: &[Axis<'_>], output: &Output) -> Details {
     let is_mean = axes.iter().any(|axis| axis.constant.is_none());
     let variants = match axes[..] {
@@ -89,7 +89,7 @@ fn details(axes: &[Axis<'_>], output: &Output) -> Details {
     }
 }
 
-/// Squared errors of the model and of the constant, both multiplied by `scale`.
+/// Squared errors of the model and of the constant prediction, both multiplied by `scale`.
 struct Parts {
     scale: Dyadic,
     unexplained: Dyadic,
@@ -123,7 +123,7 @@ impl Parts {
         }
     }
 
-    /// Sum of two parts, on a common scale.
+    /// Sum of `self` and `other`, on a common scale.
     fn and(&self, other: &Parts) -> Parts {
         let joined =
             |own: &Dyadic, others: &Dyadic| &(own * &other.scale) + &(others * &self.scale);

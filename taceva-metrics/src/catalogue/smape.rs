@@ -37,12 +37,12 @@ pub(crate) static SMAPE: Metric = Metric {
     ..Metric::of(&PAIRS)
 };
 
-/// Sum of the terms of sMAPE divided by the number of pairs, rounded once.
+/// Mean of the terms of sMAPE over all pairs, rounded once.
 fn smape(sums: &PairSums) -> Finished {
     Ok(sums.mean(Stream::Symmetric))
 }
 
-/// Parameter ε of the denominator.
+/// Constant ε in the denominator of sMAPE.
 pub(super) fn epsilon(_: Unit) -> Vec<Parameter> {
     vec![Parameter {
         name: "eps",

@@ -37,7 +37,7 @@ pub(crate) static SMAPE_GATED: Metric = Metric {
     ..Metric::of(&PAIRS)
 };
 
-/// Mean of the terms of sMAPE over the samples that reach the gate, rounded once.
+/// Mean of the terms of sMAPE over the samples whose |truth| reaches the gate, rounded once.
 fn smape_gated(sums: &PairSums) -> Finished {
     if sums.n_gated() == 0 {
         return Err(UndefinedReason::BelowGate);

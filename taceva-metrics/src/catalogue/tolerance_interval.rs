@@ -11,7 +11,7 @@ use crate::score::range::Range;
 use crate::score::theme::Theme;
 use crate::stats::NormalSample;
 
-/// Share of all errors in the interval, and confidence of the interval.
+/// Share of all errors that the interval contains, with the confidence [`CONFIDENCE`].
 const SHARE: f64 = 0.95;
 const CONFIDENCE: f64 = 0.95;
 

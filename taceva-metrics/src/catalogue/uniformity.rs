@@ -49,10 +49,11 @@ pub(crate) static UNIFORMITY: Metric = Metric {
     ..Metric::of(&SURFACE)
 };
 
-/// Variant that decides verdicts.
+/// Name of the variant that decides verdicts.
 const DEBIASED: &str = "debiased";
 
-/// Uniformity 1 / (1 + σ/|μ|), with the mean μ and standard deviation σ of the mean compliances of cells with at least `n_min` samples.
+/// Uniformity 1 / (1 + σ/|μ|) of the compliance over cells of the surface. μ and σ are the mean and standard deviation of the cell means. Only
+/// cells with at least `n_min` samples count.
 fn uniformity(sums: &SurfaceSums, settings: &Settings) -> Numbers {
     let Settings { n_min, ddof, .. } = *settings;
     if let Err(reason) = contact(sums).and_then(|()| on_surface(sums)) {
@@ -120,7 +121,7 @@ fn on_surface(sums: &SurfaceSums) -> Result<(), UndefinedReason> {
     Ok(())
 }
 
-/// Uniformity |μ| / (|μ| + σ) of the mean μ and the standard deviation σ, rounded once.
+/// Uniformity |μ| / (|μ| + σ) from the mean μ and standard deviation σ of compliances, rounded once.
 fn ratio(mean: f64, deviation: f64) -> Finished {
     if !deviation.is_finite() {
         return Err(UndefinedReason::Overflow);

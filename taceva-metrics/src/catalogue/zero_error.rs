@@ -38,7 +38,7 @@ fn gate(_: Unit) -> Vec<Parameter> {
     }]
 }
 
-/// Mean of the predictions, rounded once.
+/// Mean of the predictions without contact, rounded once.
 fn zero_error(predictions: &Moments, _: Unit) -> Numbers {
     let mean = enough(predictions).and_then(|()| predictions.mean().ok_or(UndefinedReason::Empty));
     Numbers::of(mean)

@@ -15,7 +15,7 @@ pub(super) struct Share {
 }
 
 impl Share {
-    /// above / (above + below), both positive.
+    /// Point x = above / (above + below), for positive arguments.
     pub(super) fn of(above: f64, below: f64) -> Share {
         Share {
             part: 1.0 / (1.0 + below / above),
@@ -24,7 +24,7 @@ impl Share {
     }
 }
 
-/// Regularised incomplete beta functions I(a, b) of `share` and 1 − I, a and b > 0.
+/// Regularised incomplete beta function I(a, b) at `share`, and 1 − I, for a and b > 0.
 ///
 /// # Reference
 /// Didonato and Morris, ACM Transactions on Mathematical Software 18 (1992); NIST Digital Library of Mathematical Functions 8.17.
@@ -52,7 +52,7 @@ pub(super) fn beta_tails(a: f64, b: f64, share: Share) -> Tails {
     }
 }
 
-/// Continued fraction of I divided by xᵃ (1 − x)ᵇ / B(a, b), by Lentz's method.
+/// Continued fraction in I = xᵃ (1 − x)ᵇ / B(a, b) × fraction, by the method of Lentz. I is the regularised incomplete beta function at x.
 ///
 /// The only difference of nearly equal numbers is a − (a + b) x, computed from the smaller of x and 1 − x.
 ///

@@ -21,7 +21,7 @@ pub fn below(x: f64, freedom: f64) -> f64 {
     }
 }
 
-/// P(χ² > x). A small result has full relative accuracy.
+/// P(χ² > x) for `freedom` degrees of freedom above 0. A small result has full relative accuracy.
 ///
 /// ```
 /// use taceva_metrics::distributions::chi_square;
@@ -35,7 +35,7 @@ pub fn above(x: f64, freedom: f64) -> f64 {
     }
 }
 
-/// Quantile: x with P(χ² ≤ x) = `share`.
+/// Quantile: x with P(χ² ≤ x) = `share`, for `freedom` degrees of freedom above 0.
 ///
 /// ```
 /// use taceva_metrics::distributions::chi_square;
@@ -51,7 +51,7 @@ pub fn quantile(share: f64, freedom: f64) -> f64 {
     }
 }
 
-/// Random number with this distribution, a function of `draws` and `counter` alone.
+/// Random χ² number with `freedom` degrees of freedom. The same `draws`, `counter` and `freedom` give the same number.
 ///
 /// ```
 /// use taceva_metrics::distributions::chi_square;

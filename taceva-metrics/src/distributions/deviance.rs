@@ -1,10 +1,10 @@
-//! Factors of densities, accurate for any number of degrees of freedom.
+//! Factors of gamma, beta and t densities, accurate for any number of degrees of freedom.
 
 use crate::elementary::logarithm;
 
 /// ln Γ(a + 1) − (a + ½) ln a + a − ½ ln 2π, a > 0: the error of Stirling's formula.
 pub(super) fn stirling_error(a: f64) -> f64 {
-    /// Threshold from which the next term of the series is below 2⁻⁵³ of the first.
+    /// Least a for which the first omitted term of the series is below 2⁻⁵³ of the first term.
     const SERIES: f64 = 16.0;
     const TERMS: [f64; 7] = [
         1.0 / 12.0,

@@ -14,7 +14,7 @@ fn is_defined(above: f64, below: f64) -> bool {
     above > 0.0 && below > 0.0 && above.is_finite() && below.is_finite()
 }
 
-/// P(F ≤ ratio) for `above` and `below` degrees of freedom, both above 0.
+/// P(F ≤ ratio) for F with `above` degrees of freedom in the numerator and `below` in the denominator, both above 0.
 ///
 /// ```
 /// use taceva_metrics::distributions::f_ratio;
@@ -28,7 +28,7 @@ pub fn below(ratio: f64, above: f64, below: f64) -> f64 {
     }
 }
 
-/// P(F > ratio). A small result has full relative accuracy.
+/// P(F > ratio), with the arguments of [`below`]. A small result has full relative accuracy.
 ///
 /// ```
 /// use taceva_metrics::distributions::f_ratio;
@@ -42,7 +42,7 @@ pub fn above(ratio: f64, above: f64, below: f64) -> f64 {
     }
 }
 
-/// Quantile: the ratio with P(F ≤ ratio) = `share`.
+/// Quantile: the ratio with P(F ≤ ratio) = `share`, for F with `above` and `below` degrees of freedom.
 ///
 /// ```
 /// use taceva_metrics::distributions::f_ratio;

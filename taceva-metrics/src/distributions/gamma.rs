@@ -26,7 +26,7 @@ pub(super) fn gamma_tails(a: f64, x: f64) -> Tails {
     }
 }
 
-/// 1 + x/(a + 1) + x²/((a + 1)(a + 2)) + …
+/// Series in P(a, x) = xᵃ e⁻ˣ / Γ(a + 1) × series: 1 + x/(a + 1) + x²/((a + 1)(a + 2)) + …
 fn series(a: f64, x: f64) -> f64 {
     let (mut sum, mut term, mut below) = (1.0, 1.0, a);
     loop {
@@ -40,7 +40,7 @@ fn series(a: f64, x: f64) -> f64 {
     }
 }
 
-/// 1/(x + 1 − a − 1(1 − a)/(x + 3 − a − 2(2 − a)/(…))), by Lentz's method.
+/// Continued fraction in Q(a, x) = xᵃ e⁻ˣ / Γ(a) × fraction: 1/(x + 1 − a − 1(1 − a)/(x + 3 − a − 2(2 − a)/(…))), by the method of Lentz.
 fn fraction(a: f64, x: f64) -> f64 {
     const LEAST: f64 = 1e-290;
     const MOST: u32 = 1_000_000;
@@ -62,7 +62,7 @@ fn fraction(a: f64, x: f64) -> f64 {
     result
 }
 
-/// `value`, or `least` if `value` is nearly zero.
+/// Returns `value`, or `least` if |`value`| is below `least`.
 pub(super) fn least(value: f64, least: f64) -> f64 {
     if value.abs() < least { least } else { value }
 }

@@ -1,4 +1,4 @@
-//! Student's noncentral t distribution: (Z + δ) / √(χ² / ν).
+//! Noncentral t distribution: of (Z + δ) / √(χ² / ν), for a standard normal Z, χ² with ν degrees of freedom, and noncentrality δ.
 
 use std::f64::consts::TAU;
 
@@ -7,11 +7,12 @@ use super::tails::{Tails, least_where};
 use super::{normal, student_t};
 use crate::elementary::exponential;
 
-/// Tail probabilities at `t`, by the trapezoidal rule for ∫ Φ(t s − δ) f(s) ds over the logarithm of s = √(χ² / ν).
+/// Tail probabilities at `t`, by the trapezoidal rule for ∫ Φ(t s − δ) f(s) ds over the logarithm of s = √(χ² / ν). Φ is the normal distribution
+/// function, f the density of s, and δ the noncentrality.
 ///
 /// The integrand is analytic and decays at both ends, so the number of digits grows in proportion to the number of points.
 fn tails(t: f64, freedom: f64, noncentrality: f64) -> Tails {
-    /// Exponent beyond which the density contributes nothing to a tail of 10⁻²⁷.
+    /// Limit of e where the density is proportional to exp(−e). A smaller density adds nothing, even to a tail of 10⁻²⁷.
     const GONE: f64 = 100.0;
     let half = freedom / 2.0;
     // 2 (ν/2)^(ν/2) e^(−ν/2) / Γ(ν/2), the density of ln s at s = 1.
@@ -59,7 +60,7 @@ pub fn below(t: f64, freedom: f64, noncentrality: f64) -> f64 {
     }
 }
 
-/// Probability P(T′ > t) of a noncentral T′. A small result has full relative accuracy.
+/// Probability P(T′ > t) of a noncentral T′, with the arguments of [`below`]. A small result has full relative accuracy.
 ///
 /// ```
 /// use taceva_metrics::distributions::{noncentral_t, student_t};
@@ -101,7 +102,7 @@ pub fn quantile(share: f64, freedom: f64, noncentrality: f64) -> f64 {
     }
 }
 
-/// Noncentrality of T′ for which P(T′ ≤ `t`) = `share`.
+/// Noncentrality for which a noncentral t variable T′ has P(T′ ≤ `t`) = `share`, for `freedom` degrees of freedom.
 ///
 /// ```
 /// use taceva_metrics::distributions::noncentral_t;
@@ -125,9 +126,10 @@ pub fn noncentrality(share: f64, t: f64, freedom: f64) -> f64 {
     }
 }
 
-/// Smallest detectable difference, in estimated standard deviations with `freedom` degrees of freedom.
+/// Smallest detectable value, in units of a standard deviation that was estimated with `freedom` degrees of freedom.
 ///
-/// A true zero exceeds the threshold of detection with probability `alarm`. A true value of this size stays below with probability `miss`.
+/// A measurement of zero exceeds the detection threshold with probability `alarm`. A measurement of the smallest detectable value stays below the
+/// threshold with probability `miss`.
 ///
 /// ```
 /// use taceva_metrics::distributions::noncentral_t;

@@ -33,7 +33,7 @@ pub fn above(z: f64) -> f64 {
     }
 }
 
-/// The density at z.
+/// Density of the standard normal distribution at z.
 ///
 /// ```
 /// use taceva_metrics::distributions::normal;
@@ -44,7 +44,7 @@ pub fn density(z: f64) -> f64 {
     exponential(-z * z / 2.0) / TAU.sqrt()
 }
 
-/// Quantile: z with P(Z ≤ z) = `share`; infinite for 0 and 1, NaN outside 0..1.
+/// Quantile: z with P(Z ≤ z) = `share` for a standard normal Z. The result is infinite for 0 and 1, and NaN outside 0..1.
 ///
 /// ```
 /// use taceva_metrics::distributions::normal;
@@ -76,7 +76,7 @@ pub fn quantile(share: f64) -> f64 {
     z.copysign(off)
 }
 
-/// Quotient of two polynomials, constant term first. The constant term of the divisor is 1.
+/// Quotient of two polynomials, with coefficients from the constant term up. The constant term of the divisor is 1.
 struct Quotient {
     above: [f64; 8],
     below: [f64; 7],

@@ -1,6 +1,6 @@
-//! Integrals of smooth functions by the ten-point Gauss–Legendre rule in each panel.
+//! Integrals of smooth functions. The range is divided into panels, each integrated by the ten-point Gauss–Legendre rule.
 
-/// Distances of the points from the middle of a panel, and their weights, as fractions of half a panel.
+/// Points of the rule in one half of a panel: distance from the middle of the panel, and weight. Both are fractions of half the width.
 const POINTS: [[f64; 2]; 5] = [
     [0.148_874_338_981_631_22, 0.295_524_224_714_752_87],
     [0.433_395_394_129_247_2, 0.269_266_719_309_996_35],
@@ -34,7 +34,7 @@ pub(super) fn nodes(from: f64, to: f64, width: f64) -> Vec<Node> {
     nodes
 }
 
-/// ∫ of a smooth `function` over `from`..`to`, in panels no wider than `width`.
+/// Integral of a smooth `function` over `from`..`to`, with ten points in each panel. Panels are no wider than `width`.
 ///
 /// ```
 /// use taceva_metrics::distributions::{integral, normal};

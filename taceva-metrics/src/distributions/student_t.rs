@@ -4,7 +4,7 @@ use super::beta::{Share, beta_tails};
 use super::normal;
 use super::tails::{Tails, positive_quantile};
 
-/// Probabilities within and beyond ±t.
+/// Probabilities P(|T| ≤ |t|) and P(|T| > |t|).
 fn central(t: f64, freedom: f64) -> Tails {
     let square = t * t;
     if square.is_infinite() {
@@ -30,7 +30,7 @@ pub fn below(t: f64, freedom: f64) -> f64 {
     above(-t, freedom)
 }
 
-/// P(T > t). A small result has full relative accuracy.
+/// P(T > t) for `freedom` degrees of freedom above 0. A small result has full relative accuracy.
 ///
 /// ```
 /// use taceva_metrics::distributions::student_t;
@@ -49,7 +49,7 @@ pub fn above(t: f64, freedom: f64) -> f64 {
     }
 }
 
-/// Quantile: t with P(T ≤ t) = `share`.
+/// Quantile: t with P(T ≤ t) = `share`, for `freedom` degrees of freedom above 0.
 ///
 /// ```
 /// use taceva_metrics::distributions::student_t;

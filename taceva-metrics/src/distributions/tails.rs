@@ -30,7 +30,8 @@ impl Tails {
     }
 }
 
-/// Positive point with the tail probabilities `wanted`, to the last bit that `tails` resolves. Returns 0 or infinity at the ends.
+/// Positive point at which `tails` gives the probabilities `wanted`, to the last bit. Returns 0 if nothing is below the point, and infinity if
+/// nothing is above.
 pub(super) fn positive_quantile(wanted: Tails, tails: impl Fn(f64) -> Tails) -> f64 {
     let Tails { below, above } = wanted;
     if below.is_nan() || below < 0.0 || above < 0.0 {
@@ -49,7 +50,7 @@ pub(super) fn positive_quantile(wanted: Tails, tails: impl Fn(f64) -> Tails) -> 
     })
 }
 
-/// Least positive number for which `is_reached` is true. `is_reached` must be monotonic.
+/// Least positive number for which `is_reached`, a monotonic condition, is true. Returns infinity if no number reaches the condition.
 pub(super) fn least_where(is_reached: impl Fn(f64) -> bool) -> f64 {
     let mut high = 1.0_f64;
     while !is_reached(high) {

@@ -20,10 +20,10 @@ fn is_valid(n: f64, freedom: f64, share: f64, confidence: f64) -> bool {
     is_positive(n) && is_positive(freedom) && is_share(share) && is_share(confidence)
 }
 
-/// Factor k of a one-sided limit: `share` of a normal distribution is below mean + k s, with `confidence`.
+/// Factor k of a one-sided limit: with `confidence`, at least `share` of a normal distribution is below mean + k s.
 ///
-/// The mean has the variance σ²/`n`, and s has `freedom` degrees of freedom: n − 1 for independent values. `None` for an argument out of
-/// range.
+/// The estimated mean has the variance σ²/`n`. The estimated standard deviation s has `freedom` degrees of freedom: n − 1 for independent values.
+/// Returns `None` for an argument out of range.
 ///
 /// ```
 /// use taceva_metrics::distributions::tolerance::one_sided_factor;
@@ -39,10 +39,10 @@ pub fn one_sided_factor(n: f64, freedom: f64, share: f64, confidence: f64) -> Op
     })
 }
 
-/// Factor k of a two-sided interval: mean ± k s contains `share` of a normal distribution, with `confidence`.
+/// Factor k of a two-sided interval: with `confidence`, mean ± k s contains at least `share` of a normal distribution.
 ///
-/// The factor is exact: the integral runs over the error of the mean, and Howe's approximation is only the first guess. The arguments are the
-/// arguments of [`one_sided_factor`].
+/// The factor is exact, from an integral over the error of the mean. The approximation of Howe is only the first guess. The arguments are as in
+/// [`one_sided_factor`].
 ///
 /// ```
 /// use taceva_metrics::distributions::tolerance::two_sided_factor;
@@ -53,7 +53,7 @@ pub fn one_sided_factor(n: f64, freedom: f64, share: f64, confidence: f64) -> Op
 /// ```
 #[must_use]
 pub fn two_sided_factor(n: f64, freedom: f64, share: f64, confidence: f64) -> Option<f64> {
-    /// Greatest error of the mean, in standard deviations of the mean.
+    /// Upper end of the integral over the error of the mean, in standard deviations of the mean.
     const FAR: f64 = 9.0;
     /// Width of a panel of the integral, in standard deviations of the mean.
     const WIDTH: f64 = 0.75;
@@ -78,7 +78,7 @@ pub fn two_sided_factor(n: f64, freedom: f64, share: f64, confidence: f64) -> Op
     root(off, howe.min(1e100))
 }
 
-/// Zero of an increasing function by the Illinois method, from a guess above 0. `None` if the function stays below 0.
+/// Positive zero of an increasing function by the Illinois method, from a guess above 0. `None` if the search finds no zero.
 ///
 /// # Reference
 /// Dowell and Jarratt, BIT 11 (1971).
@@ -134,7 +134,7 @@ fn root(function: impl Fn(f64) -> f64, guess: f64) -> Option<f64> {
     None
 }
 
-/// Half-width r for which a normal number is within `off` ± r with probability `share`.
+/// Half-width r for which a standard normal number is within `off` ± r with probability `share`.
 fn half_width(off: f64, share: f64) -> f64 {
     let missed = |r: f64| normal::above(r - off) + normal::above(r + off);
     let density = |r: f64| normal::density(r - off) + normal::density(r + off);

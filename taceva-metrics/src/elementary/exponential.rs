@@ -1,12 +1,12 @@
 //! e^x by + − × ÷ alone, because the exponential functions of platforms differ in their last bits.
 
-/// ln 2 in two parts. The first part has few digits, so its integer multiples are exact.
+/// ln 2 as a sum of two parts. The first part has few digits, so its products with small integers are exact.
 pub(super) const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
 
 /// e^x, with an error of a few roundings; 0 or infinity beyond the range of binary64.
 #[must_use]
 pub fn exponential(x: f64) -> f64 {
-    /// Limits of x: e^710 exceeds the greatest number, and e^−750 is below half the least number.
+    /// Limits of x in binary64: e^710 exceeds the greatest number, and e^−750 is below half the least positive number.
     const BEYOND: [f64; 2] = [-750.0, 710.0];
     if x.is_nan() {
         return x;
@@ -24,7 +24,7 @@ pub fn exponential(x: f64) -> f64 {
     scaled(sum, twos)
 }
 
-/// sum × 2^twos, in steps within the range of binary64.
+/// Computes `sum` × 2^`twos` in steps, so that each power of two is within the range of binary64.
 fn scaled(sum: f64, twos: f64) -> f64 {
     const STEP: f64 = 512.0;
     let (mut result, mut left) = (sum, twos);

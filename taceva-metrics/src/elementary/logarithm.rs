@@ -39,7 +39,7 @@ pub fn logarithm(x: f64) -> f64 {
     twos * LN_2[0] + (2.0 * slope * sum + twos * LN_2[1])
 }
 
-/// Mantissa and exponent of a normal number: x = part × 2^exponent, part in 1..2.
+/// Mantissa in 1..2 and binary exponent of a positive normal `x` = mantissa × 2^exponent.
 fn parted(x: f64) -> (f64, f64) {
     const DIGITS: u64 = (1 << 52) - 1;
     const ONE: u64 = 1023 << 52;

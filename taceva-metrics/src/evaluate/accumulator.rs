@@ -21,7 +21,7 @@ use crate::stats::IntervalMethod;
 use crate::stats::clusters::{Clustering, Clusters};
 use crate::stats::row_groups::Grouped;
 
-/// Sums of one family of metrics, separate for each contact point.
+/// Sums of one family of metrics, separate for each cluster of samples.
 ///
 /// # Laws
 /// Equal sets of samples give equal states and bit-identical scores, for any order, split and merge. Merging an empty state changes nothing.
@@ -33,7 +33,7 @@ pub(crate) struct Accumulator {
     clusters: Clusters<ErasedSums>,
     interval_method: IntervalMethod,
     clustered_by: ClusteredBy,
-    /// Parameters of states: the periods of angles, and the centres for unwrapping them.
+    /// Parameters that merged states must share: periods of angles, and the centres about which the angles are unwrapped.
     periods: BTreeMap<String, String>,
 }
 
@@ -71,7 +71,7 @@ impl Accumulator {
         accumulators
     }
 
-    /// True if the accumulator keeps sums for each contact point.
+    /// True if the accumulator keeps separate sums for each contact point.
     pub(crate) fn is_by_point(&self) -> bool {
         self.clustered_by == ClusteredBy::Point && !self.kind.is_whole
     }

@@ -8,8 +8,7 @@ use crate::evaluate::number::Number;
 use crate::evaluate::rows::Rows;
 
 impl Rows {
-    /// Adds matrices of truth and prediction, of `f32` or `f64`, whose columns are `channels` in that order. Values are copied
-    /// once.
+    /// Adds matrices of truth and prediction, with values of `f32` or `f64`. Column i belongs to `channels[i]`. Values are copied once.
     ///
     /// # Shapes
     /// `truth`, `prediction`: samples × channels.

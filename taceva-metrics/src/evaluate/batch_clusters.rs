@@ -13,7 +13,7 @@ use crate::stats::row_groups::{Grouped, Groups};
 /// Least number of rows for which sorting a batch saves time.
 const LEAST_ROWS: usize = 512;
 
-/// A batch sorted by contact point, or by cluster of points, so that the rows of a cluster are adjacent.
+/// A batch sorted by contact point, or by hash of the contact point, so that the rows of a cluster are adjacent.
 pub(crate) struct SideBySide {
     pub(crate) batch: Batch,
     groups: Groups,
@@ -21,7 +21,7 @@ pub(crate) struct SideBySide {
 }
 
 impl SideBySide {
-    /// Sorts the samples of `batch`; `None` if the samples are already sorted, too few, or without points.
+    /// Sorts the samples of `batch`. `None` if the samples are already sorted, fewer than 512, or without contact points.
     pub(crate) fn of(batch: &Batch, seed: u64) -> Option<SideBySide> {
         let points = batch.points().filter(|_| batch.rows() >= LEAST_ROWS)?;
         let grouped = Grouped::new(Cow::Borrowed(points), seed);
@@ -108,7 +108,7 @@ mod tests {
 
     use super::*;
 
-    /// Rows that cycle through `points` contact points; the truth is the row number.
+    /// Batch whose rows cycle through `points` contact points; the truth is the row number.
     fn in_turn(points: u32, rows: u32) -> Batch {
         let channels = Channels::new([Channel::FZ]).expect("one channel");
         let column = || vec![Column::full((0..rows).map(f64::from).collect())];

@@ -54,8 +54,8 @@ impl Evaluation {
         Evaluation::new(entries, skipped)
     }
 
-    /// The same scores with the share of each channel's predictions beyond the bounds of the model. A score of several channels gets the share
-    /// of its worst channel.
+    /// Adds to each score of predictions the share of predictions beyond the bounds of the model, from `shares` by channel. A score of several
+    /// channels gets the greatest share of its channels.
     #[must_use]
     pub fn with_bounded_shares(mut self, shares: &BTreeMap<String, f64>) -> Evaluation {
         for entry in &mut self.entries {
@@ -68,7 +68,7 @@ impl Evaluation {
         Evaluation::new(self.entries, self.skipped)
     }
 
-    /// The same scores, marked as scores of samples on which the model was fitted. Such scores show no skill on other samples, so the skill is unknown.
+    /// Marks the scores as scores of samples to which the model was fitted. Such scores prove no skill on other samples, so their skill is unknown.
     #[must_use]
     pub fn of_seen_samples(mut self) -> Evaluation {
         for entry in &mut self.entries {
@@ -79,7 +79,7 @@ impl Evaluation {
         self
     }
 
-    /// The same scores, marked as scores of samples with similar neighbours in the training part. Verdicts ignore these scores.
+    /// Marks the scores of predictions as scores of samples with similar neighbours in the training part. Verdicts ignore these scores.
     #[must_use]
     pub fn of_neighbours_in_training(mut self) -> Evaluation {
         for entry in &mut self.entries {

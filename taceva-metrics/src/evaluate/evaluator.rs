@@ -14,12 +14,12 @@ use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::rows::Rows;
 use crate::evaluate::state::State;
 
-/// Number of buffered rows before they are summed, so that the columns stay in the L1 cache.
+/// Number of rows that are buffered and then summed together. Their columns stay in the L1 cache.
 const BATCH_ROWS: usize = 1024;
-/// Number of pairs of one channel per summation: two columns of 32 KiB. Measured for 1,024 to a million pairs: smaller blocks cost
-/// allocations, larger blocks cost page faults.
+/// Number of pairs of one channel that are summed together: two columns of 32 KiB. In measurements from 1,024 to a million pairs, smaller blocks
+/// cost allocations. Larger blocks cost page faults.
 const PAIR_ROWS: usize = 4096;
-/// Least number of accumulators by contact point for which sorting a batch by point saves time.
+/// Least number of accumulators with sums by contact point for which sorting a batch saves time.
 const LEAST_TO_SORT: usize = 3;
 
 /// Accepts samples, one by one or in batches, and computes the scores of a plan.
@@ -53,8 +53,8 @@ impl Evaluator {
         }
     }
 
-    /// This evaluator with every sample as its own cluster, as for [`MetricPlan::independent_samples`]. Call this method before the first
-    /// update, because it drops earlier samples.
+    /// New evaluator of the same plan with every sample as its own cluster, as in [`MetricPlan::independent_samples`]. Call this method before the
+    /// first update, because it drops earlier samples.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Evaluator};
@@ -137,7 +137,7 @@ impl Evaluator {
         self.update_rows(Rows::new().pairs(channel, truth, prediction))
     }
 
-    /// Adds samples given channel by channel.
+    /// Adds the samples of `rows`, which holds truth and prediction channel by channel.
     ///
     /// # Errors
     /// The errors of [`Rows::into_batch`]. Nothing is added then.
@@ -232,7 +232,7 @@ impl Evaluator {
         Ok(with_collected.scored())
     }
 
-    /// Scores of all samples.
+    /// Scores of all added samples. Consumes the evaluator.
     ///
     /// # Errors
     /// The errors of [`update`](Evaluator::update), for samples still buffered.
@@ -268,7 +268,7 @@ impl Evaluator {
     }
 }
 
-/// Number of items of an iterator; `None` if its size hint is not exact.
+/// Number of items of an iterator; `None` if the iterator does not know this number exactly.
 fn certain(items: &impl Iterator) -> Option<usize> {
     let (least, most) = items.size_hint();
     most.filter(|most| *most == least)

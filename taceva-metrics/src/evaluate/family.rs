@@ -18,17 +18,17 @@ use crate::score::{Count, Interval, Parameter, Variant};
 /// Description of a family as data: the schema of its states, and its constructor for a plan.
 #[derive(Debug)]
 pub(crate) struct FamilyKind {
-    /// Name and version of the family's states.
+    /// Schema of the family's states: name and version.
     pub(crate) schema: &'static str,
     /// True if the family keeps one summary of all samples, without clusters, because its scores have no intervals.
     pub(crate) is_whole: bool,
     /// True if the plan chooses the clusters; otherwise they are contact points.
     pub(crate) clusters_of_plan: bool,
-    /// True if the intervals ignore the plan's method: all come from [`Family::intervals`].
+    /// True if [`Family::intervals`] computes all intervals. The interval method of the plan is then ignored.
     pub(crate) own_intervals: bool,
-    /// Optional fields, read if samples have them.
+    /// Fields that the family reads if samples have them.
     pub(crate) optional: FieldSet,
-    /// Reason why the family's metrics have no value, other than missing needs.
+    /// Reason why the plan skips the metrics of the family, apart from missing needs. `None` if they can be computed.
     pub(crate) obstacle: fn(&MetricPlan) -> Option<SkipReason>,
     /// Creates the family for a plan that contains one of its metrics.
     pub(crate) build: fn(&MetricPlan) -> Option<Box<dyn AnyFamily>>,
@@ -57,7 +57,7 @@ impl FamilyKind {
 /// # Laws
 /// The sums of [`deposit`](Family::deposit) must be a function of the set of rows: neither their order nor their grouping may matter.
 pub(crate) trait Family: Send + 'static {
-    /// Sums of one part: a channel, a plane, a kind of grating, or everything at once.
+    /// Sums of one part. A part is a channel, a plane, a kind of grating, or all samples together.
     type Sums: Merge + Clone + Send + 'static;
 
     /// Parameters that must be equal in merged states; none by default.
@@ -66,47 +66,47 @@ pub(crate) trait Family: Send + 'static {
     }
     /// Empty sums of each part.
     fn empty(&self) -> Vec<Self::Sums>;
-    /// Adds the ascending `rows` of `batch`; all rows for `None`.
+    /// Adds to `sums` the rows of `batch` with the ascending indices `rows`, or all rows for `None`.
     fn deposit(&mut self, sums: &mut [Self::Sums], batch: &Batch, rows: Option<&[u32]>);
-    /// Clusters of the rows of `batch`; by default the contact points. `None` for no clusters.
+    /// Cluster of each row of `batch`, by default its contact point. `None` if the rows have no clusters.
     fn clusters<'a>(&self, batch: &'a Batch) -> Option<Cow<'a, Labels>> {
         batch.points().map(Cow::Borrowed)
     }
-    /// Reason for a missing interval without clusters.
+    /// Reason why a score has no interval if the rows have no clusters.
     fn unclustered(&self) -> UndefinedReason {
         UndefinedReason::NoClusters
     }
-    /// Converts sums to the record of a state.
+    /// Converts the sums of one part to a record of a state.
     fn to_record(&self, sums: &Self::Sums) -> Record;
-    /// Reads the record of a state, for the part at `position`.
+    /// Reads the sums of the part at index `position` from a record of a state.
     fn read_record(&self, position: usize, record: &Record) -> Result<Self::Sums, String>;
 
-    /// Scores of `metric`, which belongs to this family.
+    /// Scores of `metric`, one per channel, plane or other part. The metric belongs to this family.
     fn outputs(&self, metric: &Metric) -> Vec<Output>;
-    /// Number of samples of a part that `metric` uses: the weight of a cluster.
+    /// Number of samples in `sums` of one part that `metric` uses, as the weight of a cluster.
     fn count(&self, metric: &Metric, sums: &Self::Sums) -> u64;
-    /// Number of samples of a part that were skipped for an unusable value.
+    /// Number of samples that `sums` of one part skipped because of an unusable value.
     fn invalid(&self, sums: &Self::Sums) -> u64;
-    /// Numbers of `metric` for one part. An output of two parts is the mean of their numbers.
+    /// Value and variants of `metric` for one part. A score of two parts is the mean of both.
     fn numbers(&self, metric: &Metric, output: &Output, sums: &Self::Sums) -> Numbers;
-    /// Numbers of `metric` for another selection of clusters. Numbers without intervals may be missing.
+    /// Value and variants of `metric` for a selection of clusters. Numbers without intervals may be missing.
     fn resampled(&self, metric: &Metric, output: &Output, sums: &Self::Sums) -> Numbers {
         self.numbers(metric, output, sums)
     }
-    /// Joint numbers of `metric` from the `sums` of all parts; `None` to use the mean of the parts' numbers.
+    /// Value and variants of `metric` computed from the `sums` of all parts together. `None` if the mean over the parts applies.
     fn joint(&self, _metric: &Metric, _output: &Output, _sums: &[Self::Sums]) -> Option<Numbers> {
         None
     }
-    /// Reason why `metric` does not apply to the output; `None` if it applies.
+    /// Reason why `metric` does not apply to the channels of an output; `None` if it applies.
     fn inapplicable(&self, _metric: &Metric, _output: &Output) -> Option<InapplicableReason> {
         None
     }
-    /// Details of a score other than its numbers, from the sums of all its parts.
+    /// Maps, counts, constants and flags of a score, from the sums of all its parts.
     fn details(&self, _metric: &Metric, _output: &Output, _parts: &[&Self::Sums]) -> Details {
         Details::default()
     }
-    /// Intervals of the value and of the variants by name, if the family has a better method than the jackknife of the score. `clusters`
-    /// contains the sums of each part.
+    /// Intervals of the value and of the variants, if the family has a better method than the jackknife of the score. `clusters` has one item per
+    /// cluster: the sums of each part.
     fn intervals(
         &self,
         _metric: &Metric,
@@ -117,7 +117,7 @@ pub(crate) trait Family: Send + 'static {
     }
 }
 
-/// Calls `add` with each row index given to [`Family::deposit`].
+/// Calls `add` with each row index in `rows`, or with every row of `batch` for `None`.
 pub(crate) fn each_row(batch: &Batch, rows: Option<&[u32]>, mut add: impl FnMut(usize)) {
     match rows {
         Some(rows) => rows.iter().for_each(|&row| add(row as usize)),
@@ -128,9 +128,9 @@ pub(crate) fn each_row(batch: &Batch, rows: Option<&[u32]>, mut add: impl FnMut(
 /// One score of a metric: the score of a part, or the mean of two parts.
 #[derive(Clone, Debug)]
 pub(crate) struct Output {
-    /// Name in reports.
+    /// Name of the channel, plane or other part in reports.
     pub(crate) label: String,
-    /// Unit of the channels.
+    /// Unit of the channels that the score uses.
     pub(crate) unit: Unit,
     /// Channels of the output; empty for a single channel.
     pub(crate) of: Vec<String>,
@@ -155,7 +155,7 @@ pub(crate) struct Number {
 }
 
 impl Numbers {
-    /// A value without variants. A number that is not finite becomes an overflow.
+    /// Numbers with a value and no variants. A value that is not finite becomes [`UndefinedReason::Overflow`].
     pub(crate) fn of(value: Finished) -> Numbers {
         Numbers {
             value: value.and_then(finite),
@@ -180,13 +180,13 @@ impl Numbers {
         self
     }
 
-    /// The variant called `name`.
+    /// Value of the variant called `name`; [`UndefinedReason::Empty`] for an unknown name.
     pub(crate) fn variant(&self, name: &str) -> Finished {
         let found = self.variants.iter().find(|variant| variant.name == name);
         found.map_or(Err(UndefinedReason::Empty), |variant| variant.value)
     }
 
-    /// Mean of each number with the number of the same name in `other`, rounded once. An error in either gives an error.
+    /// Mean of each number and the number of the same name in `other`, rounded once. The mean is undefined if either number is.
     pub(crate) fn mean(self, other: &Numbers) -> Numbers {
         let mean = |left: Finished, right: Finished| Ok(midpoint(left?, right?));
         let variants = self.variants.into_iter().map(|variant| Number {
@@ -208,8 +208,8 @@ fn finite(value: f64) -> Finished {
     }
 }
 
-/// Mean of both numbers, rounded once. Halving is exact unless the sum is tiny, and a tiny sum is exact. If the sum overflows, each number is
-/// halved first, exactly.
+/// Mean of both numbers, rounded once. Halving the sum is exact unless the sum is subnormal, and a subnormal sum is exact itself. If the sum
+/// overflows, each number is halved first, exactly.
 pub(crate) fn midpoint(left: f64, right: f64) -> f64 {
     let sum = left + right;
     if sum.is_finite() {
@@ -234,12 +234,12 @@ pub(crate) struct Intervals {
     /// Interval of the value; `None` to use the jackknife of the score.
     pub(crate) value: Option<Interval>,
     pub(crate) variants: Vec<(String, Interval)>,
-    /// Values of variants that are more accurate with known clusters.
+    /// Values of variants, by name, that are computed from the clusters instead of the total sums.
     pub(crate) values: Vec<(String, Finished)>,
 }
 
 impl Intervals {
-    /// Interval of the variant called `name`, or of the value for `None`. The last entry of a name applies.
+    /// Interval of the variant called `name`, or of the value for `None`. If a name has several entries, the last applies.
     pub(crate) fn of(&self, name: Option<&str>) -> Option<Interval> {
         let Some(name) = name else {
             return self.value;

@@ -30,11 +30,11 @@ pub struct Metric {
     pub title: &'static str,
     /// Symbol in papers, as LaTeX; `None` without a symbol.
     pub symbol: Option<&'static str>,
-    /// Section of reports.
+    /// Section of reports that shows the metric.
     pub theme: Theme,
-    /// Direction of good values.
+    /// Direction of good values: low, high, near zero, or none.
     pub better: Better,
-    /// Variants with their own direction.
+    /// Names of variants with a direction of their own, each with this direction.
     pub variants: &'static [(&'static str, Better)],
     /// Unit of the values.
     pub unit: ScoreUnit,
@@ -50,26 +50,27 @@ pub struct Metric {
     pub needs: Needs,
     /// Facts about the sensor that a value requires.
     pub facts: &'static [Fact],
-    /// Constants reported with a score.
+    /// Constants reported with a score, for the unit of its channel.
     pub(crate) constants: fn(Unit) -> Vec<Parameter>,
-    /// True if the metric uses unclipped predictions, even beyond the bounds of the model.
+    /// True if the metric uses predictions before they are clipped to the bounds of the model.
     pub(crate) reads_unbounded: bool,
     /// True if the metric applies only to forces.
     pub(crate) forces_only: bool,
-    /// Variant that decides verdicts; `None` if the value itself decides. Needed if the value depends on noise or on the number of repeats.
+    /// Name of the variant that decides verdicts; `None` if the value itself decides. Set if the value depends on noise or on the number of
+    /// repeats.
     pub decided_by: Option<&'static str>,
-    /// Rule for the standing of the metric's scores in verdicts.
+    /// Rule that decides whether scores of the metric take part in verdicts.
     pub(crate) verdict: VerdictRule,
     /// Value that the deciding variant has by chance alone. Verdicts require an interval that excludes this value.
     pub(crate) chance: Option<f64>,
-    /// Family with the sums of the metric.
+    /// Family that keeps the sums of the metric.
     pub(crate) family: &'static FamilyKind,
-    /// Formula; meaningful only in a family of several metrics.
+    /// Formula of the metric, which distinguishes several metrics of one family.
     pub(crate) formula: Formula,
 }
 
 impl Metric {
-    /// Metric of `family` with a default in every field.
+    /// Metric of `family` with a default in every other field.
     pub(crate) const fn of(family: &'static FamilyKind) -> Metric {
         Metric {
             id: "",
@@ -106,12 +107,13 @@ impl Metric {
         self.forces_only
     }
 
-    /// True if the metric uses unclipped predictions. Clipped predictions would describe the bounds of the model instead of its robustness.
+    /// True if the metric uses predictions before they are clipped to the bounds of the model. Clipped predictions would show these bounds instead
+    /// of the robustness of the model.
     pub fn reads_unbounded_predictions(&self) -> bool {
         self.reads_unbounded
     }
 
-    /// Direction of the variant called `variant`.
+    /// Direction of the variant called `variant`, by default the direction of the metric.
     pub fn better_of(&self, variant: &str) -> Better {
         let mut variants = self.variants.iter();
         let own = variants.find(|(name, _)| *name == variant);
@@ -119,12 +121,12 @@ impl Metric {
     }
 }
 
-/// Formula of a metric, with a type that its family defines.
+/// Formula of a metric. The family of the metric defines its type.
 #[derive(Clone, Copy)]
 pub(crate) struct Formula(pub(crate) &'static (dyn Any + Send + Sync));
 
 impl Formula {
-    /// The formula as the type `F` of a family.
+    /// The formula as the type `F` of a family; `None` for another type.
     pub(crate) fn get<F: 'static>(self) -> Option<&'static F> {
         self.0.downcast_ref()
     }
@@ -147,11 +149,11 @@ impl fmt::Debug for Formula {
 pub enum ScoreUnit {
     /// Unit of the channel.
     OfChannel,
-    /// Unit of the channel per hour; mm and N only.
+    /// Unit of the channel per hour, for channels in mm or N.
     PerHour,
     /// The same unit for every channel.
     Fixed(Unit),
-    /// No unit: a ratio.
+    /// No unit, because the value is a ratio.
     One,
 }
 

@@ -11,7 +11,7 @@ use crate::evaluate::metric::Metric;
 use crate::exact::record::Record;
 use crate::score::value::{InapplicableReason, UndefinedReason};
 
-/// A [`Family`] with [`ErasedSums`]; see that trait for the methods.
+/// Type-erased [`Family`]: its methods with [`ErasedSums`] instead of typed sums.
 pub(crate) trait AnyFamily: Send {
     fn parameters(&self) -> BTreeMap<String, String>;
     fn empty(&self) -> ErasedSums;
@@ -44,7 +44,7 @@ pub(crate) trait AnyFamily: Send {
     ) -> Option<Intervals>;
 }
 
-/// Erases the type of `family`; always `Some`, as `FamilyKind` requires.
+/// Erases the type of `family`. The result is always `Some`, the return type of `FamilyKind::build`.
 pub(crate) fn erased(family: impl Family) -> Option<Box<dyn AnyFamily>> {
     Some(Box::new(Erased(family)))
 }

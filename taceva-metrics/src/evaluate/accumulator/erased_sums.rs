@@ -7,7 +7,7 @@ use crate::exact::merge::Merge;
 /// Sums of all parts of one family, as a type-erased `Vec`.
 pub(crate) struct ErasedSums(Box<dyn AnySums>);
 
-/// Operations on parts of unknown type.
+/// Operations on the sums of all parts, for sums of unknown type.
 trait AnySums: Any + Send {
     fn merge(&mut self, other: &dyn Any);
     fn merge_times(&mut self, other: &dyn Any, times: u32);
@@ -32,7 +32,7 @@ fn typed<S: 'static>(parts: &dyn Any) -> &Vec<S> {
     parts.downcast_ref().expect(ONE_FAMILY)
 }
 
-/// Panic message of a failed downcast. A failure is impossible: the single family of an accumulator created all its parts.
+/// Panic message for sums of another type. The family of an accumulator creates all its sums, so the panic is impossible.
 const ONE_FAMILY: &str = "parts of one family";
 
 impl ErasedSums {
@@ -40,12 +40,12 @@ impl ErasedSums {
         ErasedSums(Box::new(sums))
     }
 
-    /// Sums with the type of their family.
+    /// Sums of each part, in the type `S` of the family. Panics for another type.
     pub(super) fn sums<S: 'static>(&self) -> &Vec<S> {
         typed(&*self.0)
     }
 
-    /// Mutable sums with the type of their family.
+    /// Mutable sums of each part, in the type `S` of the family. Panics for another type.
     pub(super) fn sums_mut<S: 'static>(&mut self) -> &mut Vec<S> {
         let parts: &mut dyn Any = &mut *self.0;
         parts.downcast_mut().expect(ONE_FAMILY)

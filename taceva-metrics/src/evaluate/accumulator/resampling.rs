@@ -1,4 +1,4 @@
-//! Resampling: a score recomputed for other selections of clusters, for its interval.
+//! Resampling: scores recomputed with some clusters left out or weighted, for their intervals.
 
 use std::borrow::Cow;
 
@@ -11,12 +11,13 @@ use crate::score::value::{Finished, UndefinedReason};
 use crate::stats::jackknife::{self, LeftOut};
 use crate::stats::{Estimated, PoissonBootstrap};
 
-/// A cluster: the hash or index of its name, and the sums of each part.
+/// A cluster: its key, which is the hash or index of its name, and the sums of each part.
 pub(super) type Cell<'a> = (u64, &'a ErasedSums);
 
-/// Calls `visit` with each cluster and the sums of all other clusters.
+/// Calls `visit` with the sums of each cluster and the sums of all other clusters.
 ///
-/// Running sums of the clusters before and after make subtractions unnecessary. Sums that cannot be subtracted therefore have intervals too.
+/// The sums of the other clusters are merged from running sums of the clusters before and after each cluster. Nothing is subtracted, so sums need
+/// no subtraction.
 pub(super) fn each_left_out(
     empty: &ErasedSums,
     cells: &[Cell<'_>],
@@ -37,22 +38,22 @@ pub(super) fn each_left_out(
     }
 }
 
-/// Value and variants of one score, recomputed for other selections of clusters.
+/// Value and variants of one score, recomputed with some clusters left out or weighted.
 pub(super) struct Resampling {
-    /// Names and ranges of the numbers.
+    /// Name and range of the value (without a name) and of each variant.
     names: Vec<(Option<Cow<'static, str>>, Range)>,
     draws: Draws,
 }
 
 enum Draws {
-    /// Number of samples of the left-out cluster, and the numbers computed from the other clusters.
+    /// For each left-out cluster: its number of samples, and the numbers computed from all other clusters.
     LeftOut(Vec<(u64, Vec<Finished>)>),
-    /// Intervals of the numbers.
+    /// Interval of each number, from a weighted bootstrap.
     Weighted(Vec<Interval>),
 }
 
 impl Resampling {
-    /// Empty resampling for `numbers` computed from all clusters, with a value in `range`.
+    /// Resampling without results, for the `numbers` computed from all clusters. `range` is the range of the value.
     pub(super) fn new(numbers: &Numbers, range: Range) -> Resampling {
         let variants = numbers.variants.iter();
         let names = variants.map(|variant| (Some(variant.name.clone()), variant.range));
@@ -76,7 +77,8 @@ impl Resampling {
         }
     }
 
-    /// Recomputes the score once per replicate, with clusters of `samples` samples multiplied by their weights.
+    /// Recomputes the score once per replicate, with the sums of each cluster multiplied by its weight. `samples` is the number of samples in all
+    /// clusters.
     pub(super) fn weigh(
         &mut self,
         bootstrap: PoissonBootstrap,
@@ -121,7 +123,7 @@ impl Resampling {
         self.draws = Draws::Weighted(intervals.collect());
     }
 
-    /// Interval about `value`, for the variant called `name` or the value itself.
+    /// Interval about `value`, which is the variant called `name`, or the value of the score for `None`.
     pub(super) fn interval(&self, value: f64, name: Option<&str>) -> Interval {
         let mut names = self.names.iter();
         let position = names.position(|(known, _)| known.as_deref() == name);

@@ -22,7 +22,7 @@ struct Request {
 }
 
 impl Accumulator {
-    /// Scores of the `metrics` of this family, metric by metric.
+    /// Scores of those `metrics` that belong to the family, in the order of `metrics`.
     pub(crate) fn scores(&self, metrics: &[&'static Metric]) -> Vec<Entry> {
         let total = self.clustering.total(&self.clusters);
         let mut requests = self.requests(metrics, &total);
@@ -40,14 +40,14 @@ impl Accumulator {
             .collect()
     }
 
-    /// Numbers of an output: the numbers of one part, the mean of two parts, or the joint numbers of the family.
+    /// Numbers of one score: the numbers of its part, the mean of its two parts, or joint numbers from all parts.
     fn numbers(&self, metric: &Metric, output: &Output, sums: &ErasedSums) -> Numbers {
         self.of_parts(metric, output, sums, |part| {
             self.family.numbers(metric, output, sums, part)
         })
     }
 
-    /// Numbers for another selection of clusters; only numbers with intervals.
+    /// Numbers of one score for a selection of clusters. Numbers without intervals may be missing.
     fn resampled(&self, metric: &Metric, output: &Output, sums: &ErasedSums) -> Numbers {
         self.of_parts(metric, output, sums, |part| {
             self.family.resampled(metric, output, sums, part)
@@ -73,14 +73,14 @@ impl Accumulator {
         }
     }
 
-    /// Number of samples of a cluster that an output uses.
+    /// Number of samples in the sums of a cluster that one score uses.
     fn samples(&self, metric: &Metric, output: &Output, sums: &ErasedSums) -> u64 {
         let parts = output.parts.iter();
         let counts = parts.map(|&part| self.family.count(metric, sums, part));
         counts.fold(0, u64::saturating_add)
     }
 
-    /// All scores of `metrics`, without intervals.
+    /// Scores of those `metrics` that belong to the family, before intervals are computed.
     fn requests(&self, metrics: &[&'static Metric], total: &ErasedSums) -> Vec<Request> {
         let mut requests = Vec::new();
         let of_family = |metric: &&&Metric| metric.family.schema == self.kind.schema;
@@ -98,7 +98,7 @@ impl Accumulator {
         requests
     }
 
-    /// Recomputes every score repeatedly, with clusters left out or weighted.
+    /// Recomputes each score that has an interval, with clusters left out or weighted.
     fn resample(&self, requests: &mut [Request], cells: &[Cell<'_>]) {
         let requests = requests.iter_mut();
         let mut requests: Vec<&mut Request> = requests

@@ -1,4 +1,4 @@
-//! Scores of a channel by method call instead of by name.
+//! Methods for single scores of a channel, such as `mae`.
 
 use std::borrow::Borrow;
 
@@ -10,9 +10,8 @@ use crate::score::Score;
 /// Generates one method per metric from its name and meaning.
 macro_rules! handles {
     ($($metric:ident: $says:literal),+ $(,)?) => {
-        /// Scores of one channel. `None` if the plan [skipped](Evaluation::skipped) the metric or lacks the channel. A score without a value
-        /// is present, with the reason as its value. For planes and all other metrics use
-        /// [`score`](Evaluation::score).
+        /// Methods that return one score of a channel. They return `None` if the plan [skipped](Evaluation::skipped) the metric or lacks the
+        /// channel. An undefined score is present, and its value is the reason. For planes and other metrics use [`score`](Evaluation::score).
         impl Evaluation {
             $(
                 #[doc = concat!("The score `", stringify!($metric), "` of `channel`: ", $says, ".")]

@@ -1,4 +1,4 @@
-//! Scores as the keys `metrics` and `skipped` of a report.
+//! Serialization of an evaluation as the keys `metrics` and `skipped` of a report.
 
 use serde::ser::{Serialize, SerializeMap, SerializeStruct, Serializer};
 use taceva_core::{Skipped, Unit};
@@ -110,7 +110,7 @@ impl Serialize for Variant {
     }
 }
 
-/// Writes the keys of the value, and the unit of a number.
+/// Writes the map entries of `value`, and the unit of a defined value.
 fn serialize_value<M: SerializeMap>(
     into: &mut M,
     value: &Value,
@@ -174,7 +174,7 @@ fn serialize_interval<M: SerializeMap>(
     Ok(())
 }
 
-/// `[low, high]`, or `{"undefined": reason}`.
+/// Serializes the interval as `[low, high]`, or as `{"undefined": reason}`.
 impl Serialize for Interval {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match (self, self.ends()) {
@@ -196,7 +196,7 @@ impl<T: Serialize> Serialize for Entries<T> {
     }
 }
 
-/// `{"what": …, "reason": …}`.
+/// A skipped metric, serialized as `{"what": …, "reason": …}`.
 struct Left<'a>(&'a Skipped);
 
 impl Serialize for Left<'_> {

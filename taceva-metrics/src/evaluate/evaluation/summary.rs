@@ -49,7 +49,7 @@ pub(super) fn lines(evaluation: &Evaluation) -> Option<Vec<Vec<String>>> {
     Some(lines)
 }
 
-/// Value with its unit; empty if the metric does not apply to the channel.
+/// Text of one score: the value with its unit, or `undefined`. Empty for an absent score or another kind of value.
 fn cell(score: Option<&Score>) -> String {
     let Some(score) = score else {
         return String::new();

@@ -55,7 +55,7 @@ fn write_aligned(f: &mut fmt::Formatter<'_>, lines: &[Vec<String>]) -> fmt::Resu
     Ok(())
 }
 
-/// Number of samples, with the number of invalid samples.
+/// Text with the number of samples, and with the number of invalid samples if there are any.
 pub(super) fn counted(n: u64, n_invalid: u64) -> String {
     match n_invalid {
         0 => n.to_string(),
@@ -63,7 +63,7 @@ pub(super) fn counted(n: u64, n_invalid: u64) -> String {
     }
 }
 
-/// Row of the score, then rows of its scalar variants.
+/// Table rows of one score: first the value, then its scalar variants.
 fn rows(entry: &Entry) -> Vec<Vec<String>> {
     let score = &entry.score;
     let id = entry.metric.id;
