@@ -1,8 +1,8 @@
-//! Exact sums of the streams of pairs, block by block.
+//! Exact sums of streams, quantities of pairs of truth and prediction, block by block.
 //!
-//! A block is summed in whole units of grids that fit the latest pairs. The units remain integers over many blocks. They move to the
-//! superaccumulators when the grids change, before an overflow, and when a sum is read. A pair that does not fit the grids is removed
-//! from its block and added alone. The selection of these pairs depends on earlier pairs, but the sums do not: every path is exact.
+//! A grid is a range of magnitudes with fixed units. A block is summed in integer numbers of units, on grids that fit the latest pairs. These numbers
+//! grow over many blocks. They move to the exact sums when the grids change, before an overflow, and when a sum is read. A pair that does not fit the
+//! grids is removed from its block and added alone. The selection of these pairs depends on earlier pairs, but the sums do not: every path is exact.
 
 use super::bounds::{Grids, TERMS};
 use super::kernel::{BLOCK_ROWS, Block};
