@@ -80,8 +80,8 @@ impl MetricPlan {
     /// intervals says `samples taken as independent`. Metrics that compare samples of one contact point still use contact points as clusters.
     ///
     /// Presses at one location are not independent: with single samples as clusters, intervals would contain the truth too seldom
-    /// (`docs/coverage.md`). [`Batch::with_samples`](taceva_core::Batch::with_samples) names the clusters. In a batch without these names, samples that are
-    /// equal in every channel share a cluster. More than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) clusters are assigned by hash to
+    /// (`docs/coverage.md`). [`Batch::with_samples`](taceva_core::Batch::with_samples) names the clusters. In a batch without these names, samples
+    /// that are equal in every channel share a cluster. More than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) clusters are assigned by hash to
     /// [`HASHED_CLUSTERS`](crate::HASHED_CLUSTERS). Scores therefore depend on the set of samples alone.
     ///
     /// ```

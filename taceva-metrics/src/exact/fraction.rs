@@ -29,7 +29,7 @@ impl Fraction {
         }
     }
 
-    /// 0.
+    /// The fraction 0.
     pub fn zero() -> Fraction {
         Fraction::of(Dyadic::from(0), 1)
     }
@@ -42,7 +42,7 @@ impl Fraction {
         }
     }
 
-    /// Exact difference of both fractions.
+    /// self − `other`, exactly.
     pub fn minus(&self, other: &Fraction) -> Fraction {
         Fraction {
             above: &(&self.above * &other.below) - &(&other.above * &self.below),
