@@ -75,9 +75,9 @@ impl MetricPlan {
         }
     }
 
-    /// The same plan for independent samples. Every sample is then a cluster of its own, which the jackknife of an interval leaves out. This applies
-    /// to errors, R², skill, scores of planes, linearity, cross-talk, bias by level, tolerance, agreement and tolerance interval. The method of these
-    /// intervals says `samples taken as independent`. Metrics that compare samples of one contact point still use contact points as clusters.
+    /// The same plan for independent samples. Every sample is then a cluster of its own. This applies to errors, R², skill, scores of planes,
+    /// linearity, cross-talk, bias by level, tolerance, agreement and tolerance interval. The method of these intervals says `samples taken as
+    /// independent`. Metrics that compare samples of one contact point still use contact points as clusters.
     ///
     /// Presses at one location are not independent: with single samples as clusters, intervals would contain the truth too seldom
     /// (`docs/coverage.md`). [`Batch::with_samples`](taceva_core::Batch::with_samples) names the clusters. In a batch without these names, samples

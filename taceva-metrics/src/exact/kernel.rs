@@ -239,7 +239,7 @@ impl<const STREAMS: u8> Job for Errors<'_, STREAMS> {
     }
 }
 
-/// Second visit: the other sums.
+/// Second visit of a block: sums of truths and of sMAPE terms.
 struct Values<'a, const STREAMS: u8, const GATED: bool>(Block<'a>);
 
 struct ValueSums<V, const STREAMS: u8, const GATED: bool> {
