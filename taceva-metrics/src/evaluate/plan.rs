@@ -75,9 +75,9 @@ impl MetricPlan {
         }
     }
 
-    /// The same plan for independent samples. Every sample is then a cluster of its own. This applies to errors, R², skill, scores of planes,
-    /// linearity, cross-talk, bias by level, tolerance, agreement and tolerance interval. The method of these intervals says `samples taken as
-    /// independent`. Metrics that compare samples of one contact point still use contact points as clusters.
+    /// The same plan for independent samples. Every sample is then a cluster of its own. This applies to intervals of errors, R², skill, scores of
+    /// planes, linearity, cross-talk, bias by level, tolerance, agreement and tolerance interval. The method of these intervals says `samples taken
+    /// as independent`. Metrics that compare samples of one contact point still use contact points as clusters.
     ///
     /// Presses at one location are not independent: with single samples as clusters, intervals would contain the truth too seldom
     /// (`docs/coverage.md`). [`Batch::with_samples`](taceva_core::Batch::with_samples) names the clusters. In a batch without these names, samples
@@ -100,9 +100,10 @@ impl MetricPlan {
     }
 
     /// The same plan for samples of several recordings. Each recording is a cluster, so intervals show the variation between recordings. This applies
-    /// to errors, R², skill, scores of planes, linearity, cross-talk, bias by level, tolerance, agreement and tolerance interval. The method of these
-    /// intervals says `by recording`. Batches name the recording of each sample ([`Batch::with_recordings`](taceva_core::Batch::with_recordings));
-    /// without these names the intervals are undefined. Metrics that compare samples of one contact point still use contact points as clusters.
+    /// to intervals of errors, R², skill, scores of planes, linearity, cross-talk, bias by level, tolerance, agreement and tolerance interval. The
+    /// method of these intervals says `by recording`. Batches name the recording of each sample
+    /// ([`Batch::with_recordings`](taceva_core::Batch::with_recordings)); without these names the intervals are undefined. Metrics that compare
+    /// samples of one contact point still use contact points as clusters.
     ///
     /// ```
     /// use taceva_metrics::{Batch, Channel, Channels, Column, Evaluator, FieldSet, Labels, MetricPlan, catalogue};
@@ -188,7 +189,7 @@ impl MetricPlan {
         self.available
     }
 
-    /// Computed metrics.
+    /// Metrics that the evaluation computes.
     pub fn kept(&self) -> &[&'static Metric] {
         &self.kept
     }

@@ -24,7 +24,7 @@ pub struct Settings {
     pub ddof: u32,
     /// Least magnitude of the normal force of a press that sensitivity and uniformity use; default 0.02 N.
     pub gate: Newton,
-    /// Number of neighbouring bins in a rolling mean of bin means, odd; default 5.
+    /// Number of neighbouring bins in the rolling mean of the variant `r_spatial.smooth`, odd; default 5.
     pub smoothing_window: u32,
     /// Greatest error of a predicted grating spacing that counts as correct; default 0.05 mm.
     pub resolution_tolerance: Nanometre,

@@ -15,9 +15,9 @@ use crate::score::verdict_standing::Standing;
 use crate::score::{Interval, Score};
 
 impl Standing {
-    /// Standing of a score of `metric` computed from `channels`. `skill_of` returns the skill of each channel.
+    /// Standing of a score of `metric` computed from `channels`. `skill_of` returns the standing of a channel's skill.
     ///
-    /// Metrics of the truth alone always count. A score of several channels gets the worst standing of these channels.
+    /// A metric of the truth alone always counts. A score of several channels gets the worst standing of these channels.
     pub fn of_channels<'a>(
         metric: &Metric,
         channels: impl IntoIterator<Item = &'a str>,

@@ -67,7 +67,7 @@ impl<V: Vector> RangeInLanes<V> {
 
 /// Bounds on residuals (truth − prediction) and on truths that keep the sums of the requested streams exact.
 ///
-/// A prediction is at most the sum of both magnitudes, and needs no bounds of its own.
+/// The magnitude of a prediction is at most the sum of both magnitudes, and needs no bounds of its own.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
     pub(super) residual: Range,

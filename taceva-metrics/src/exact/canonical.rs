@@ -113,9 +113,9 @@ pub enum CanonicalError {
     ZeroAtTheEnd,
     /// There are no digits, but a minus sign or a position above 0.
     Zero,
-    /// The number exceeds every sum of binary64 products.
+    /// The number exceeds the range of sums.
     Beyond {
-        /// Position after the highest digit.
+        /// Position after the highest digit, in digits of 32 bits.
         reach: usize,
     },
 }

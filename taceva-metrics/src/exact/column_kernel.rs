@@ -1,4 +1,4 @@
-//! Inner loops that sum a block of one column, or the products of two columns, in units of their grids.
+//! Inner loops that sum a block of one column, or the products of two columns, in integer numbers of fixed units.
 
 use super::bounds::Range;
 use super::grid::{Grid, GridSum, ProductSum, ProductUnits};

@@ -26,7 +26,7 @@ pub(crate) trait ColumnSums {
     fn sums(&mut self) -> [&mut [ExactSum]; 2];
     /// Records added rows, whose values are all usable numbers.
     fn take(&mut self, columns: &[&[f64]]);
-    /// Records a row that was skipped for an unusable value.
+    /// Records a row that was skipped for a NaN or a magnitude above 2¹⁰²¹.
     fn leave_out(&mut self);
 }
 
@@ -64,7 +64,7 @@ impl ColumnAdder {
         }
     }
 
-    /// Adds the rows of `columns`. Rows with an unusable value are skipped.
+    /// Adds the rows of `columns`. A row with a NaN or a magnitude above 2¹⁰²¹ is skipped.
     pub(crate) fn add(&mut self, columns: &[&[f64]], into: &mut impl ColumnSums) {
         let rows = columns.first().map_or(0, |column| column.len());
         if rows < FEW_ROWS {

@@ -20,7 +20,7 @@ impl FixedSum {
     /// Greatest number of additions before `settle_into`: 2¹⁶ values below 2¹¹⁰ units fit an `i128`.
     pub(crate) const MOST: usize = 1 << 16;
 
-    /// Adds `value` and returns true. Returns false and adds nothing for a magnitude of 2¹⁴ or more, or below 2⁻⁴⁴ and not zero.
+    /// Adds `value` and returns true. Returns false and adds nothing for a magnitude of 2¹⁴ or more, or a nonzero magnitude below 2⁻⁴⁴.
     #[inline]
     pub(crate) fn try_add(&mut self, value: f64) -> bool {
         let Binary {

@@ -21,7 +21,7 @@ const FRACTION: i32 = 52;
 /// Grid: fixed units for sums of values below 2^(top + 1) in magnitude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Grid {
-    /// Exponent of the greatest value.
+    /// Exponent of two of the greatest magnitude.
     pub(super) top: i32,
 }
 
@@ -33,7 +33,7 @@ impl Grid {
         }
     }
 
-    /// Grid of the rounding errors of the products on [`Grid::of_products`].
+    /// Grid of the rounding errors of products of values on this grid and on `other`.
     pub(super) fn of_errors_of_products(self, other: Grid) -> Grid {
         Grid {
             top: self.top + other.top - FRACTION - 1,

@@ -182,7 +182,7 @@ impl Ord for Natural {
     }
 }
 
-/// Adds `other` in place. Returns true for a carry out of the top limb.
+/// Adds `other` to `limbs` in place. Returns true for a carry out of the top limb.
 fn add_to(limbs: &mut [u64], other: &[u64]) -> bool {
     let mut carried = false;
     let padded = other.iter().copied().chain(std::iter::repeat(0));
@@ -194,7 +194,7 @@ fn add_to(limbs: &mut [u64], other: &[u64]) -> bool {
     carried
 }
 
-/// Subtracts `factor × other` in place. Returns true for a borrow from above the top limb.
+/// Subtracts `factor × other` from `limbs` in place. Returns true for a borrow from above the top limb.
 fn subtract_multiple(limbs: &mut [u64], other: &[u64], factor: u64) -> bool {
     let mut carried = 0;
     let padded = other.iter().copied().chain(std::iter::repeat(0));

@@ -1,4 +1,4 @@
-//! Inner loops that sum a block of pairs in units of grids.
+//! Inner loops that sum a block of pairs in integer numbers of fixed units.
 //!
 //! A block is visited twice: once for the sums of residuals, truth − prediction, and once for the other sums. The sums of one visit then fit the
 //! registers of any processor. Between the visits the block stays in the L1 cache. The first visit also checks that all pairs are within [`Bounds`].
@@ -131,7 +131,7 @@ pub(super) trait Visit<V> {
     fn visit(&mut self, estimate: V, reference: V);
 }
 
-/// Rows per cache line of one column.
+/// Number of rows in a cache line of one column.
 const LINE_ROWS: usize = 8;
 
 /// Passes all pairs to `visitor`, with the last vector padded by zeros, and prefetches the cache lines of `next`.

@@ -16,7 +16,7 @@ pub(crate) fn millionths(value: f64) -> Option<i64> {
     Nanometre::from_millimetres(value).map(|millionths| millionths.0)
 }
 
-/// Value in its unit of a number of millionths, rounded once.
+/// Converts `millionths` of a unit to a value in this unit, rounded once.
 pub(crate) fn from_millionths(millionths: i64) -> f64 {
     Nanometre(millionths).to_millimetres()
 }

@@ -19,7 +19,7 @@ pub(crate) fn sign(value: &Dyadic) -> Ordering {
     }
 }
 
-/// |value|.
+/// Absolute value of `value`.
 pub(crate) fn magnitude(value: Dyadic) -> Dyadic {
     match sign(&value) {
         Ordering::Less => -value,

@@ -13,7 +13,7 @@ const WINDOW: usize = 8;
 
 /// Position of the bit of weight 1, counted from the lowest bit of a sum.
 const UNIT_POSITION: usize = 2176;
-/// Greatest number of additions between carries. Each addition changes a digit by less than 2⁵³, so 1000 of them fit an `i64`.
+/// Greatest number of additions between propagations of carries. Each addition changes a digit by less than 2⁵³, so 1000 of them fit an `i64`.
 const DEPOSITS: u32 = 1000;
 /// Position of the bit of weight 2⁻¹⁰⁷⁴, the least denormal number.
 const DENORMAL_POSITION: usize = UNIT_POSITION - 1074;
@@ -43,7 +43,7 @@ pub struct ExactSum {
     first: u32,
     /// Additions left before the next propagation of carries; 0 in a new sum, whose window has no position yet.
     deposits_left: u32,
-    /// All digits, allocated if the window is too narrow.
+    /// All digits, allocated if the inline digits are too few.
     full: Option<Box<[i64; DIGITS]>>,
 }
 
@@ -166,7 +166,7 @@ impl ExactSum {
         self.deposit_parts(position, split(square, position));
     }
 
-    /// Adds digits from bit `position` on, unless all are zero. Zeros would only widen the range of stored digits.
+    /// Adds `parts` from the digit of bit `position` on, unless all are zero. Zeros would only widen the range of stored digits.
     #[inline]
     fn deposit_parts<const PARTS: usize>(&mut self, position: usize, parts: [i64; PARTS]) {
         if parts != [0; PARTS] {

@@ -1,4 +1,4 @@
-//! Sums as integer numbers of units of grids, before they move to an [`ExactSum`].
+//! Sums as integer numbers of fixed units, before they move to an [`ExactSum`].
 
 use super::bounds::{Bounds, Grids, TERMS};
 use super::grid::{Grid, ProductUnits};

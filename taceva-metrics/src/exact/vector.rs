@@ -1,4 +1,4 @@
-//! Vector operations for the block kernels.
+//! Vector operations for the inner loops of sums.
 
 /// A vector of binary64 numbers.
 ///
@@ -29,7 +29,7 @@ pub(crate) trait Vector: Copy {
     fn times(self, other: Self) -> Self;
     /// self / other, rounded.
     fn over(self, other: Self) -> Self;
-    /// |self|.
+    /// Absolute value of each lane.
     fn magnitude(self) -> Self;
     /// Rounded product self × other, and its rounding error, which is exact without over- and underflow.
     fn product(self, other: Self) -> [Self; 2];

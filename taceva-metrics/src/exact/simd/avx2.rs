@@ -1,4 +1,4 @@
-//! Four numbers per vector: AVX2 with fused multiplication.
+//! Four numbers per vector: AVX2 with fused multiply-add.
 
 #![expect(unsafe_code, reason = "vector instructions and loads")]
 
@@ -38,7 +38,7 @@ impl Avx2 {
     }
 }
 
-/// Four numbers. Construction requires the proof or other vectors.
+/// Vector of four numbers, created from the proof or from other vectors.
 #[derive(Clone, Copy)]
 struct Four(__m256d);
 

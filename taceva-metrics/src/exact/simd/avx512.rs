@@ -34,7 +34,7 @@ impl Avx512 {
     }
 }
 
-/// Eight numbers. Construction requires the proof or other vectors.
+/// Vector of eight numbers, created from the proof or from other vectors.
 #[derive(Clone, Copy)]
 struct Eight(__m512d);
 

@@ -1,4 +1,4 @@
-//! Two numbers per vector: NEON, which every 64-bit ARM has, fused multiplication included.
+//! Two numbers per vector: NEON with fused multiply-add, which every 64-bit ARM processor has.
 
 #![expect(unsafe_code, reason = "vector instructions and loads")]
 
@@ -32,7 +32,7 @@ impl Neon {
     }
 }
 
-/// Two numbers. Construction requires the proof or other vectors.
+/// Vector of two numbers, created from the proof or from other vectors.
 #[derive(Clone, Copy)]
 struct Two(float64x2_t);
 

@@ -24,7 +24,7 @@ impl Pair {
     }
 }
 
-/// Rounding error of a product without fused multiplication: Veltkamp's splitting and Dekker's product (1971).
+/// Rounding error of a product without fused multiply-add: Veltkamp's splitting and Dekker's product (1971).
 #[inline(always)]
 fn error_of_product(left: f64, right: f64, product: f64) -> f64 {
     let ([left_high, left_low], [right_high, right_low]) = (split(left), split(right));
