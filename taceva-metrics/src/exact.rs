@@ -1,4 +1,4 @@
-//! Sums and quotients without intermediate rounding, so that every score depends only on the set of samples. RN(x) is the binary64 nearest to x.
+//! Sums and quotients without intermediate rounding, so that every score depends only on the set of samples.
 
 mod block_sums;
 mod bounds;

@@ -1,6 +1,6 @@
-//! Number types of the input.
+//! Number types that a column of samples may have.
 
-/// A number of a row: `f64`, `f32`, a reference to one of them, or an `Option` with `None` for a missing value.
+/// Number type of a column: `f64`, `f32`, a reference to one of them, or an `Option` with `None` for a missing value.
 ///
 /// Any iterator over numbers of this trait is a column: a slice, a vector, an array, a view of `ndarray`. An `f32` is widened without loss.
 ///

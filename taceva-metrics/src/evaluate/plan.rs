@@ -1,4 +1,4 @@
-//! Plan of an evaluation: computed metrics, skipped metrics with reasons, and required fields.
+//! Plan of an evaluation: computed metrics, skipped metrics with reasons, and the fields of a sample that the evaluation reads.
 
 mod selection;
 
@@ -15,7 +15,7 @@ use crate::score::ClusteredBy;
 use crate::score::sensor_facts::SensorFacts;
 use crate::stats::IntervalMethod;
 
-/// Plan of an evaluation of given channels and fields.
+/// Plan of an evaluation: the metrics to compute from given channels and fields of samples.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Channels, FieldSet, MetricPlan, catalogue};
@@ -42,7 +42,7 @@ pub struct MetricPlan {
 }
 
 impl MetricPlan {
-    /// The same plan with other constants in the definitions.
+    /// The same plan with other constants in the definitions of metrics.
     ///
     /// # Errors
     /// [`MetricError::Setting`] for a value outside the allowed range.
@@ -57,7 +57,7 @@ impl MetricPlan {
         MetricPlan { seed, ..self }
     }
 
-    /// The same plan with another method for intervals.
+    /// The same plan with another method for confidence intervals.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Channels, FieldSet, IntervalMethod, MetricPlan, PoissonBootstrap, catalogue};
@@ -75,13 +75,13 @@ impl MetricPlan {
         }
     }
 
-    /// The same plan for independent samples: every sample is its own cluster in intervals of errors, R², skill, planes, linearity,
-    /// cross-talk, bias by level, tolerance, agreement and tolerance interval. The method of these intervals says `samples taken as independent`.
-    /// Metrics that compare samples of one contact point still use contact points as clusters.
+    /// The same plan for independent samples. Every sample is then a cluster of its own. This applies to intervals of errors, R², skill, scores of
+    /// planes, linearity, cross-talk, bias by level, tolerance, agreement and tolerance interval. The method of these intervals says `samples taken
+    /// as independent`. Metrics that compare samples of one contact point still use contact points as clusters.
     ///
     /// Presses at one location are not independent: with single samples as clusters, intervals would contain the truth too seldom
-    /// (`docs/coverage.md`). [`Batch::with_samples`](taceva_core::Batch::with_samples) names the clusters. In a batch without these names, samples that are
-    /// equal in every channel share a cluster. More than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) clusters are assigned by hash to
+    /// (`docs/coverage.md`). [`Batch::with_samples`](taceva_core::Batch::with_samples) names the clusters. In a batch without these names, samples
+    /// that are equal in every channel share a cluster. More than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) clusters are assigned by hash to
     /// [`HASHED_CLUSTERS`](crate::HASHED_CLUSTERS). Scores therefore depend on the set of samples alone.
     ///
     /// ```
@@ -99,11 +99,11 @@ impl MetricPlan {
         }
     }
 
-    /// The same plan for samples of several recordings, with each recording as a cluster. Intervals of errors, R², skill, planes, linearity,
-    /// cross-talk, bias by level, tolerance, agreement and tolerance interval then show the variation between recordings. The method of
-    /// these intervals says `by recording`. Batches name the recording of each sample
-    /// ([`Batch::with_recordings`](taceva_core::Batch::with_recordings)); without these names the intervals are undefined. Metrics that
-    /// compare samples of one contact point still use contact points as clusters.
+    /// The same plan for samples of several recordings. Each recording is a cluster, so intervals show the variation between recordings. This applies
+    /// to intervals of errors, R², skill, scores of planes, linearity, cross-talk, bias by level, tolerance, agreement and tolerance interval. The
+    /// method of these intervals says `by recording`. Batches name the recording of each sample
+    /// ([`Batch::with_recordings`](taceva_core::Batch::with_recordings)); without these names the intervals are undefined. Metrics that compare
+    /// samples of one contact point still use contact points as clusters.
     ///
     /// ```
     /// use taceva_metrics::{Batch, Channel, Channels, Column, Evaluator, FieldSet, Labels, MetricPlan, catalogue};
@@ -128,8 +128,8 @@ impl MetricPlan {
         }
     }
 
-    /// The same plan for samples in dependent groups, such as blocks of time or clips, with each group as a cluster. Works like
-    /// [`by_recording`](MetricPlan::by_recording), with the group name of each sample in place of its recording, and the method `by group`.
+    /// The same plan for samples in dependent groups, such as blocks of time or clips. Each group is a cluster. The group name of a sample replaces
+    /// the recording of [`by_recording`](MetricPlan::by_recording), and the method of the intervals says `by group`.
     #[must_use]
     pub fn by_group(self) -> MetricPlan {
         MetricPlan {
@@ -138,16 +138,16 @@ impl MetricPlan {
         }
     }
 
-    /// Clusters of the intervals, for metrics that do not require contact points.
+    /// Kind of clusters in the intervals of metrics that do not require contact points.
     pub fn clustered_by(&self) -> ClusteredBy {
         self.clustered_by
     }
 
-    /// The same plan with the best constant predictions for the model: by channel the mean of the training labels, in the unit of the
-    /// channel. Skill compares the model with these constants, and in other channels with the mean of the evaluated truth.
+    /// The same plan with constant predictions to compare with the model. The constant of a channel is the mean of its training labels, in the unit
+    /// of the channel. Without a constant, skill compares the model with the mean of the evaluated truth.
     ///
     /// # Errors
-    /// [`MetricError::Setting`] for an unusable constant.
+    /// [`MetricError::Setting`] for a NaN or a magnitude above 2¹⁰²¹.
     pub fn with_constants(
         self,
         constants: BTreeMap<String, f64>,
@@ -189,7 +189,7 @@ impl MetricPlan {
         self.available
     }
 
-    /// Computed metrics.
+    /// Metrics that the evaluation computes.
     pub fn kept(&self) -> &[&'static Metric] {
         &self.kept
     }
@@ -204,7 +204,7 @@ impl MetricPlan {
         &self.channels
     }
 
-    /// Required fields of a sample.
+    /// Fields of a sample that the evaluation reads.
     pub fn fields(&self) -> FieldSet {
         self.fields
     }
@@ -214,7 +214,7 @@ impl MetricPlan {
         self.seed
     }
 
-    /// Method for intervals.
+    /// Method for confidence intervals.
     pub fn interval_method(&self) -> IntervalMethod {
         self.interval_method
     }
@@ -224,17 +224,17 @@ impl MetricPlan {
         &self.facts
     }
 
-    /// Constants of definitions.
+    /// Constants in the definitions of metrics.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// Known best constant predictions for the model, by channel.
+    /// Constant predictions that skill compares with the model, by the name of the channel.
     pub fn constants(&self) -> &BTreeMap<String, f64> {
         &self.constants
     }
 
-    /// Best constant prediction for the model in the channel called `channel`; `None` if unknown.
+    /// Constant prediction that skill compares with the model in `channel`; `None` if unknown.
     pub(crate) fn constant(&self, channel: &str) -> Option<f64> {
         self.constants.get(channel).copied()
     }

@@ -1,4 +1,4 @@
-//! Clusters of single samples without names.
+//! Names for single samples as clusters, for batches that do not name their samples.
 
 use taceva_core::{Batch, Column, Labels};
 

@@ -1,10 +1,10 @@
-//! Adjustable constants of definitions.
+//! Adjustable constants in the definitions of metrics.
 
 use taceva_core::{Nanometre, Newton};
 
 use crate::error::MetricError;
 
-/// Adjustable constants of definitions. Defaults are the values of the paper or of its project page.
+/// Adjustable constants in the definitions of metrics. Defaults are the values of the TacEva paper or of its project page.
 ///
 /// Each score reports its constants. States with different constants do not merge.
 ///
@@ -16,17 +16,17 @@ use crate::error::MetricError;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Settings {
-    /// Cells along each side of a map of the surface; default 20, at most 1,000.
+    /// Number of cells along each side of a map of the gel's surface; default 20, at most 1,000.
     pub bins: u32,
-    /// Least number of samples of a bin; default 1.
+    /// Least number of samples of a bin; bins with fewer samples are ignored. Default 1.
     pub n_min: u64,
     /// Number subtracted from the bin count in the divisor of the variance: 0 (default: the bins are the whole population) or 1.
     pub ddof: u32,
-    /// Least normal force of contact; default 0.02 N.
+    /// Least magnitude of the normal force of a press that sensitivity and uniformity use; default 0.02 N.
     pub gate: Newton,
-    /// Number of bins in a rolling mean, odd; default 5.
+    /// Number of neighbouring bins in the rolling mean of the variant `r_spatial.smooth`, odd; default 5.
     pub smoothing_window: u32,
-    /// Greatest error of a recognised grating spacing; default 0.05 mm.
+    /// Greatest error of a predicted grating spacing that counts as correct; default 0.05 mm.
     pub resolution_tolerance: Nanometre,
 }
 
@@ -44,7 +44,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Greatest number of cells along each side of a map. A larger map would exceed its data.
+    /// Greatest number of cells along each side of a map. A larger map would take more space than its data.
     pub const BINS_MAX: u32 = 1000;
 
     /// The same settings with another [`bins`](Settings::bins).

@@ -33,7 +33,7 @@ pub struct State {
 }
 
 impl State {
-    /// Name and version of the schema: `taceva.pairs/1`.
+    /// Name and version of the schema, such as `taceva.pairs/1`.
     pub fn schema(&self) -> &str {
         &self.schema
     }
@@ -48,7 +48,7 @@ impl State {
         &self.channels
     }
 
-    /// Sums by contact point, with one record per channel or plane.
+    /// Sums of each cluster of samples, as one record per channel or plane.
     pub fn clusters(&self) -> &Clusters<Vec<Record>> {
         &self.clusters
     }
@@ -93,7 +93,7 @@ pub(crate) struct Shape {
     pub(crate) channels: Vec<(String, Unit)>,
 }
 
-/// Channels in the form of a state.
+/// Names and units of `channels`, as a state stores them.
 pub(crate) fn written(channels: &Channels) -> Vec<(String, Unit)> {
     channels
         .iter()
@@ -101,7 +101,7 @@ pub(crate) fn written(channels: &Channels) -> Vec<(String, Unit)> {
         .collect()
 }
 
-/// Channels in the form of a message: `Px [mm], Fz [N]`.
+/// Names and units of channels as text for a message, such as `Px [mm], Fz [N]`.
 pub(crate) fn describe(channels: &[(String, Unit)]) -> String {
     let names: Vec<String> = channels
         .iter()

@@ -15,9 +15,9 @@ use crate::score::verdict_standing::Standing;
 use crate::score::{Interval, Score};
 
 impl Standing {
-    /// Standing of a score of `metric` computed from `channels`. `skill_of` returns the skill of each channel.
+    /// Standing of a score of `metric` computed from `channels`. `skill_of` returns the standing of a channel's skill.
     ///
-    /// Metrics of the truth alone always count. A score of several channels gets the worst standing of these channels.
+    /// A metric of the truth alone always counts. A score of several channels gets the worst standing of these channels.
     pub fn of_channels<'a>(
         metric: &Metric,
         channels: impl IntoIterator<Item = &'a str>,
@@ -35,7 +35,7 @@ impl Standing {
     }
 }
 
-/// Sets the standing of `entries`, from their skill scores and bounded shares.
+/// Sets the standing of every score in `entries`, from the skill scores among them and from its own values and flags.
 pub(crate) fn set_standings(entries: &mut [Entry]) {
     let skills: Vec<(String, Standing)> = entries
         .iter()
@@ -52,7 +52,7 @@ fn of_skill_score(skill: &Score) -> Standing {
     Standing::of_value(low_end(skill), skill.value.scalar())
 }
 
-/// Lower end of the interval of a score, or its value if the value is at an end of its range in every cluster; otherwise `None`.
+/// Lower end of the interval of a score; `None` without an interval. A value at an end of its range in every cluster is its own lower end.
 fn low_end(score: &Score) -> Option<f64> {
     match score.interval {
         // A value at the end of its range in every cluster, as for a model without errors, is its own lower end.
@@ -101,7 +101,7 @@ fn of_score(
         .max(beside_chance(metric, score))
 }
 
-/// Standing of a spread: a score counts if the interval of its deciding variant excludes the value of chance alone.
+/// Standing of a score against chance. The interval of the variant that decides must exclude the metric's value under chance alone.
 fn beside_chance(metric: &Metric, score: &Score) -> Standing {
     let (Some(chance), Some(name)) = (metric.chance, metric.decided_by) else {
         return Standing::Counts;
@@ -115,8 +115,8 @@ fn beside_chance(metric: &Metric, score: &Score) -> Standing {
     }
 }
 
-/// Standing of a share within a tolerance: a score does not count unless its interval is above the share of a constant prediction. Without
-/// a known constant, skill alone decides.
+/// Standing of a share within a tolerance: a score counts if its interval is above the share of a constant prediction. If this share is unknown,
+/// skill alone decides.
 fn beside_constant(metric: &Metric, score: &Score) -> Standing {
     match (metric.verdict, of_share(score)) {
         (VerdictRule::ShareBesideConstant, Standing::NoSkill) => Standing::NotAboveConstant,

@@ -1,8 +1,8 @@
-//! Exact sums of the streams of pairs, block by block.
+//! Exact sums of streams, quantities of pairs of truth and prediction, block by block.
 //!
-//! A block is summed in whole units of grids that fit the latest pairs. The units remain integers over many blocks. They move to the
-//! superaccumulators when the grids change, before an overflow, and when a sum is read. A pair that does not fit the grids is removed
-//! from its block and added alone. The selection of these pairs depends on earlier pairs, but the sums do not: every path is exact.
+//! A grid is a range of magnitudes with fixed units. A block is summed in integer numbers of units, on grids that fit the latest pairs. These numbers
+//! grow over many blocks. They move to the exact sums when the grids change, before an overflow, and when a sum is read. A pair that does not fit the
+//! grids is removed from its block and added alone. The selection of these pairs depends on earlier pairs, but the sums do not: every path is exact.
 
 use super::bounds::{Grids, TERMS};
 use super::kernel::{BLOCK_ROWS, Block};
@@ -16,10 +16,10 @@ use crate::pair::Paired;
 
 /// Least number of rows of a block. Adding fewer rows one by one is faster.
 const FEW_ROWS: usize = 4;
-/// Greatest number of rows between deposits. Each row adds less than 2⁴⁴ units, so the sum fits an `i64`.
+/// Greatest number of rows between moves of the unit counts to the exact sums. Each row adds less than 2⁴⁴ units, so a count fits an `i64`.
 const MOST_ROWS: usize = 1 << 19;
 
-/// Exact sums of the requested streams, with counts of their pairs.
+/// Exact sums of the requested streams (quantities of a pair), with counts of the pairs.
 #[derive(Clone, Debug)]
 pub(crate) struct BlockSums {
     machine: Machine,
@@ -30,18 +30,18 @@ pub(crate) struct BlockSums {
     pending: Option<Pending>,
 }
 
-/// Counts of valid, invalid and gated pairs.
+/// Counts of summed pairs, of skipped pairs, and of pairs in the gated sum.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Counts {
     /// Summed pairs.
     pub(crate) valid: u64,
-    /// Pairs skipped for an unusable value.
+    /// Pairs skipped for a NaN or a magnitude above 2¹⁰²¹.
     pub(crate) invalid: u64,
-    /// Summed pairs whose truth reaches the gate.
+    /// Summed pairs whose truth has at least the magnitude of the gate.
     pub(crate) gated: u64,
 }
 
-/// Sum of each stream, and sum of the sMAPE terms of pairs whose truth reaches the gate.
+/// Sum of each stream, and gated sum: the sMAPE terms of pairs whose truth has at least the magnitude of the gate.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Sums {
     pub(crate) streams: [ExactSum; Stream::ALL.len()],
@@ -49,7 +49,7 @@ pub(crate) struct Sums {
 }
 
 impl BlockSums {
-    /// Empty sums. Without `gate`, there is no gated sum.
+    /// Empty sums of `streams`. The gated sum takes pairs whose truth has a magnitude of at least `gate`; `None` omits this sum.
     pub(crate) fn new(machine: Machine, streams: Streams, gate: Option<f64>) -> BlockSums {
         BlockSums {
             machine,
@@ -66,7 +66,7 @@ impl BlockSums {
         (self.counts, self.settled, self.pending) = (counts, sums, None);
     }
 
-    /// Adds pairs. Pairs with an unusable value are counted and skipped.
+    /// Adds pairs. A pair with a NaN or a magnitude above 2¹⁰²¹ is skipped and counted.
     pub(crate) fn update(&mut self, pairs: Paired<&[f64]>) {
         if pairs.estimate.len() < FEW_ROWS {
             return pairs.iter().for_each(|pair| self.add_pair(pair));
@@ -93,7 +93,7 @@ impl BlockSums {
         sum
     }
 
-    /// Sum of the sMAPE terms of pairs whose truth reaches the gate.
+    /// Sum of the sMAPE terms of pairs whose truth has at least the magnitude of the gate.
     pub(crate) fn gated_sum(&self) -> ExactSum {
         let mut sum = self.settled.gated.clone();
         if let Some(pending) = self.pending.as_ref().filter(|_| self.gate.is_some()) {
@@ -156,7 +156,7 @@ impl BlockSums {
         assert!(added, "pairs out of bounds were removed");
     }
 
-    /// Adds one pair to the superaccumulators.
+    /// Adds one pair directly to the exact sums.
     fn add_pair(&mut self, pair: Paired<f64>) {
         if !pair.is_valid() {
             self.counts.invalid += 1;
@@ -180,7 +180,7 @@ impl BlockSums {
         }
     }
 
-    /// Moves the units to the superaccumulators.
+    /// Moves the pending numbers of units to the exact sums.
     fn settle(&mut self) {
         let Some(pending) = &mut self.pending else {
             return;

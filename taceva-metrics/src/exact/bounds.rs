@@ -1,21 +1,21 @@
-//! Bounds on the pairs of a block that keep its vector sums exact.
+//! Bounds on the values of pairs. Within the bounds, vector sums of a block are exact.
 
 use super::grid::{Grid, power_of_two};
 use super::vector::Vector;
 use crate::exact::streams::{Stream, Streams};
 use crate::pair::Paired;
 
-/// Greatest exponent of a grid, far from overflow of squares and from underflow of their rounding errors.
+/// Greatest exponent of two of a grid. Squares cannot overflow, and the rounding errors of squares cannot underflow.
 const GREATEST_TOP: i32 = 400;
 /// Grid of the terms of sMAPE, which are at most 2 before rounding.
 pub(super) const TERMS: Grid = Grid { top: 1 };
 
-/// Grids that fit the magnitudes of some pairs.
+/// Grids that fit the residuals and the truths of a set of pairs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Grids {
-    /// Grid of y − ŷ.
+    /// Grid of the residuals, truth − prediction.
     pub(super) residual: Grid,
-    /// Grid of y.
+    /// Grid of the truths.
     pub(super) truth: Grid,
 }
 
@@ -27,7 +27,7 @@ pub(super) struct Range {
 }
 
 impl Range {
-    /// Range of exponents from `top` − `reach` to `top`.
+    /// Range of magnitudes whose exponents of two are `top` − `reach` to `top`.
     pub(super) fn new(top: i32, reach: i32) -> Range {
         Range {
             least: power_of_two((top - reach).max(-1022)),
@@ -40,7 +40,7 @@ impl Range {
     }
 }
 
-/// Range with the same bounds in every lane.
+/// Range with the same bounds in every lane of a vector.
 pub(super) struct RangeInLanes<V> {
     below_least: V,
     greatest: V,
@@ -57,16 +57,17 @@ impl Range {
 }
 
 impl<V: Vector> RangeInLanes<V> {
-    /// True if all magnitudes are within the range. `greatest` is the greatest magnitude, `below_least` the predecessor of the least nonzero magnitude.
+    /// True if all magnitudes are within the range. `greatest` is the greatest magnitude, `below_least` the predecessor of the least nonzero
+    /// magnitude.
     #[inline(always)]
     pub(super) fn hold(self, below_least: V, greatest: V) -> bool {
         greatest.all_at_most(self.greatest) && self.below_least.all_at_most(below_least)
     }
 }
 
-/// Bounds on y − ŷ and y that keep the sums of the requested streams exact.
+/// Bounds on residuals (truth − prediction) and on truths that keep the sums of the requested streams exact.
 ///
-/// Within these bounds ŷ is at most the sum of two such magnitudes and needs no separate bounds.
+/// The magnitude of a prediction is at most the sum of both magnitudes, and needs no bounds of its own.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
     pub(super) residual: Range,
@@ -108,10 +109,10 @@ impl Bounds {
     }
 }
 
-/// Least exponent of a residual whose sMAPE term fits the grid.
+/// Least exponent of a residual whose sMAPE term fits the grid of terms, from the greatest exponents of residuals and truths.
 ///
-/// With d = y − ŷ, the divisor (|y| + |ŷ|) / 2 + ε is below |y| + |d| + ε up to rounding. With m the greatest exponent of these three terms, the
-/// divisor is below 2^(m+3); ε is below 2⁻²⁶.
+/// For truth y, prediction ŷ and residual d = y − ŷ, the divisor of the term is (|y| + |ŷ|) / 2 + ε, with ε < 2⁻²⁶. Up to rounding, the divisor is
+/// below |y| + |d| + ε. If m is the greatest exponent of these three summands, the divisor is below 2^(m+3).
 fn least_residual_of_terms(residual: i32, truth: i32) -> i32 {
     let divisor = residual.max(truth).max(-27) + 3;
     TERMS.top - Grid::REACH + divisor
@@ -138,8 +139,8 @@ impl Grids {
     }
 }
 
-/// Top of the window of `reach` + 1 exponents that contains most values. If the window has headroom, the top is one higher, so that a slightly
-/// greater value fits too.
+/// Greatest of the `reach` + 1 successive exponents that contain most of `values`. If these values span fewer exponents, the result is one higher, so
+/// that a slightly greater value fits too.
 pub(super) fn best_top(values: impl Iterator<Item = f64>, reach: i32) -> i32 {
     let usable = -GREATEST_TOP..=GREATEST_TOP;
     let mut exponents: Vec<i32> = values

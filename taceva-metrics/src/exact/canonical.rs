@@ -4,13 +4,13 @@ use std::fmt;
 
 use super::digits::DIGITS;
 
-/// Greatest number of digits of a sum in a file. The digits above leave room for any number of merges.
+/// Greatest number of digits of a stored sum. A sum in memory has four digits more, as room for any number of merges.
 const READABLE_DIGITS: usize = DIGITS - 4;
 
-/// Exact sum as sign, magnitude and position. Equal sums have equal forms.
+/// Exact sum as a sign, the position of the lowest digit, and digits of 32 bits. Equal sums have equal forms.
 ///
 /// # Units
-/// The value is `±Σ digits[i] × 2^(32 (first + i) − 2176)`. Neither end of `digits` is zero; the sum zero has no digits.
+/// The value is `±Σ digits[i] × 2^(32 (first + i) − 2176)`, summed over i. Neither end of `digits` is zero; the sum zero has no digits.
 ///
 /// ```
 /// use taceva_metrics::{Canonical, ExactSum};
@@ -30,7 +30,7 @@ pub struct Canonical {
 }
 
 impl Canonical {
-    /// The form with the given parts.
+    /// The form with this sign, this position of the lowest digit, and these digits.
     ///
     /// # Errors
     /// [`CanonicalError`] if the parts are not the canonical form of a number, or exceed the range of sums.
@@ -61,17 +61,17 @@ impl Canonical {
         self.negative
     }
 
-    /// Position of the lowest of [`digits`](Canonical::digits).
+    /// Position of the lowest of [`digits`](Canonical::digits), in digits of 32 bits.
     pub fn first(&self) -> usize {
         self.first
     }
 
-    /// Digits of the magnitude, lowest first.
+    /// Digits of the magnitude in base 2³², lowest first.
     pub fn digits(&self) -> &[u32] {
         &self.digits
     }
 
-    /// Form of a magnitude with unpropagated carries.
+    /// Form of the magnitude `digits`, whose carries are not yet propagated.
     pub(super) fn from_digits(negative: bool, digits: &[i64]) -> Canonical {
         let mut carried = 0;
         let mut magnitude = Vec::with_capacity(digits.len() + 2);
@@ -100,7 +100,7 @@ impl Canonical {
     }
 }
 
-/// Reason why parts are not the form of a sum.
+/// Reason why a sign, a position and digits are not the canonical form of a sum.
 ///
 /// ```
 /// use taceva_metrics::{Canonical, CanonicalError};
@@ -111,11 +111,11 @@ impl Canonical {
 pub enum CanonicalError {
     /// The lowest or the highest digit is zero.
     ZeroAtTheEnd,
-    /// No digits, but a sign or a position.
+    /// There are no digits, but a minus sign or a position above 0.
     Zero,
-    /// The number exceeds every sum of binary64 products.
+    /// The number exceeds the range of sums.
     Beyond {
-        /// Position after the highest digit.
+        /// Position after the highest digit, in digits of 32 bits.
         reach: usize,
     },
 }
@@ -139,7 +139,7 @@ impl fmt::Display for CanonicalError {
 
 impl std::error::Error for CanonicalError {}
 
-/// Serialized form: `["-", 67, [1, 2]]`.
+/// Serialized form: sign, position of the lowest digit, and digits, such as `["-", 67, [1, 2]]`.
 #[cfg(feature = "serde")]
 #[derive(serde::Serialize, serde::Deserialize)]
 struct Form(Sign, usize, Vec<u32>);

@@ -1,4 +1,4 @@
-//! Inner loops that sum a block of one column, or the products of two columns, in units of their grids.
+//! Inner loops that sum a block of one column, or the products of two columns, in integer numbers of fixed units.
 
 use super::bounds::Range;
 use super::grid::{Grid, GridSum, ProductSum, ProductUnits};
@@ -6,12 +6,12 @@ use super::kernel::{Visit, visit_all};
 use super::vector::{Job, Vector};
 use crate::pair::Paired;
 
-/// Range of values whose products are exact on `grid` too.
+/// Range of values on `grid` whose products are summed exactly too.
 pub(super) fn range_of(grid: Grid) -> Range {
     Range::new(grid.top, Grid::REACH_OF_SQUARES)
 }
 
-/// Sum of a column; `None` if a value is out of range.
+/// Job that sums a column. The result is `None` if a value is out of range.
 pub(super) struct OfColumn<'a> {
     pub(super) values: &'a [f64],
     pub(super) grid: Grid,
@@ -55,7 +55,7 @@ impl Job for OfColumn<'_> {
     }
 }
 
-/// Sum of the products of two columns whose values are in range.
+/// Job that sums the products of two columns. All values must be in the ranges of their grids.
 pub(super) struct OfProducts<'a> {
     pub(super) columns: [&'a [f64]; 2],
     pub(super) grids: [Grid; 2],

@@ -1,7 +1,7 @@
 //! Exact sums of columns of equal length and of products of two columns, block by block.
 //!
-//! As in `block_sums.rs`, a block is summed in whole units of grids that fit the latest values. A row that does not fit is added alone. The
-//! selection of these rows depends on earlier rows, but the sums do not.
+//! As in `block_sums.rs`, a grid is a range of magnitudes with fixed units. A block is summed in integer numbers of units, on grids that fit the
+//! latest values. A row that does not fit is added alone. The selection of these rows depends on earlier rows, but the sums do not.
 
 use super::bounds::best_top;
 use super::column_kernel::{OfColumn, OfProducts, range_of};
@@ -14,9 +14,10 @@ use crate::pair::is_valid;
 
 /// Least number of rows of a block. Adding fewer rows one by one is faster.
 const FEW_ROWS: usize = 8;
-/// Greatest number of rows between deposits. Each row adds less than 2⁴⁴ units, so the rows and one block fit an `i64`.
+/// Greatest number of rows between moves of the unit counts to the exact sums. Each row adds less than 2⁴⁴ units, so the rows and one block fit an
+/// `i64`.
 const MOST_ROWS: usize = 1 << 18;
-/// Reciprocal of the share of stray rows in a block above which new grids are chosen.
+/// Reciprocal of the greatest share of rows outside the grids in a block. A greater share changes the grids.
 const ROWS_PER_STRAY: usize = 8;
 
 /// Sums of columns and of their products.
@@ -25,22 +26,22 @@ pub(crate) trait ColumnSums {
     fn sums(&mut self) -> [&mut [ExactSum]; 2];
     /// Records added rows, whose values are all usable numbers.
     fn take(&mut self, columns: &[&[f64]]);
-    /// Records a row that was skipped for an unusable value.
+    /// Records a row that was skipped for a NaN or a magnitude above 2¹⁰²¹.
     fn leave_out(&mut self);
 }
 
-/// Adds columns to sums.
+/// Adds rows of columns to exact sums, block by block.
 #[derive(Clone, Debug)]
 pub(crate) struct ColumnAdder {
     machine: Machine,
-    /// Pairs of columns to multiply.
+    /// Indices of the two columns of each product.
     products: Vec<[usize; 2]>,
     /// Current grids, one per column; empty before the first block.
     grids: Vec<Grid>,
     units: Units,
 }
 
-/// Units that are not yet added to a sum.
+/// Numbers of units that are not yet added to the exact sums.
 #[derive(Clone, Debug, Default)]
 struct Units {
     columns: Vec<[i64; 2]>,
@@ -63,7 +64,7 @@ impl ColumnAdder {
         }
     }
 
-    /// Adds the rows of `columns`. Rows with an unusable value are skipped.
+    /// Adds the rows of `columns`. A row with a NaN or a magnitude above 2¹⁰²¹ is skipped.
     pub(crate) fn add(&mut self, columns: &[&[f64]], into: &mut impl ColumnSums) {
         let rows = columns.first().map_or(0, |column| column.len());
         if rows < FEW_ROWS {
@@ -162,7 +163,7 @@ impl ColumnAdder {
         into.take(&row);
     }
 
-    /// Moves the units to the sums.
+    /// Moves the numbers of units to the exact sums in `into`.
     fn settle(&mut self, into: &mut impl ColumnSums) {
         if self.units.rows == 0 {
             return;
@@ -191,7 +192,7 @@ mod tests {
     use proptest::test_runner::RngSeed;
     use taceva_core::Isa;
 
-    /// Sums of two columns, of the square of the first and of their product, and the counts of rows.
+    /// Sums of two columns, of the square of the first and of their product, with counts of rows and the greatest values.
     #[derive(Clone, Debug, Default, PartialEq)]
     struct Noted {
         columns: [ExactSum; 2],
@@ -223,7 +224,7 @@ mod tests {
         ColumnAdder::with_machine(vec![[0, 0], [1, 0]], machine)
     }
 
-    /// Adds the rows one by one, as sums are defined.
+    /// Reference for the tests: adds the rows one by one.
     fn one_by_one(rows: &[[f64; 2]]) -> Noted {
         let mut noted = Noted::default();
         for &[left, right] in rows {

@@ -1,8 +1,9 @@
-//! Digits of an exact sum: digits of numbers and products, and the propagation of carries.
+//! Digits of an exact sum: conversion of numbers and products to digits, and propagation of carries.
 
-/// Number of digits for the whole range: from below the square of the least denormal to above 2⁶⁴ squares of the greatest number.
+/// Number of 32-bit digits for the full range of sums. The range begins below the square of the least denormal and ends above 2⁶⁴ squares of the
+/// greatest number.
 pub(super) const DIGITS: usize = 140;
-/// Exponent of the weight of bit 0 of digit 0.
+/// Exponent of two of the lowest bit of the lowest digit.
 pub(super) const UNIT_EXPONENT: i32 = -2176;
 
 /// A finite binary64 as `sign × mantissa × 2^(position − 1074)`.
@@ -27,7 +28,7 @@ impl Binary {
     }
 }
 
-/// Digits of `product × 2^(position mod 32)`. A product of two mantissas has at most 106 bits.
+/// Four digits of `product × 2^(position mod 32)`, lowest first. A product of two mantissas has at most 106 bits.
 #[inline]
 pub(super) fn split(product: u128, position: usize) -> [i64; 4] {
     let shift = position % 32;
@@ -65,7 +66,7 @@ pub(super) fn add_to(digits: &mut [i64], parts: &[i64]) {
     }
 }
 
-/// Brings every digit except the highest into −2³¹..2³¹. With balanced digits a small negative sum needs few digits.
+/// Propagates carries until every digit except the highest is in −2³¹..2³¹. With digits of both signs a small negative sum needs few digits.
 pub(super) fn carry(digits: &mut [i64]) {
     let Some((highest, others)) = digits.split_last_mut() else {
         return;

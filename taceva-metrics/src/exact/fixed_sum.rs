@@ -1,11 +1,11 @@
-//! Exact sum of a limited number of ordinary values, in sixteen bytes.
+//! Exact sum of a limited number of values of moderate magnitude, in sixteen bytes.
 
 use super::digits::Binary;
 use super::sum::ExactSum;
 
-/// Exponent of the unit: the last place of numbers from 2⁻⁴⁴ on.
+/// Exponent of two of the unit, the last place of 2⁻⁴⁴.
 const UNIT: i32 = -96;
-/// Position of a mantissa whose last place is the unit, counted from the position of the least denormal.
+/// Position of a mantissa whose lowest bit is the unit 2⁻⁹⁶. Position 0 is that of the least denormal.
 const LEAST_POSITION: usize = 1074 - 96;
 /// Number of positions from `LEAST_POSITION` on, which limits numbers to magnitudes below 2¹⁴.
 const POSITIONS: usize = 58;
@@ -20,7 +20,7 @@ impl FixedSum {
     /// Greatest number of additions before `settle_into`: 2¹⁶ values below 2¹¹⁰ units fit an `i128`.
     pub(crate) const MOST: usize = 1 << 16;
 
-    /// Adds `value`. Returns false and adds nothing if the magnitude is 2¹⁴ or more, or if the last place is below a unit.
+    /// Adds `value` and returns true. Returns false and adds nothing for a magnitude of 2¹⁴ or more, or a nonzero magnitude below 2⁻⁴⁴.
     #[inline]
     pub(crate) fn try_add(&mut self, value: f64) -> bool {
         let Binary {
@@ -52,7 +52,7 @@ impl FixedSum {
 mod tests {
     use super::*;
 
-    /// Sum of `values`. Values outside the range of [`FixedSum`] are added one by one.
+    /// Sum of `values`, and the number of values outside the range of [`FixedSum`], which are added one by one.
     fn summed(values: &[f64]) -> (ExactSum, usize) {
         let (mut fixed, mut sum, mut strays) = (FixedSum::default(), ExactSum::default(), 0);
         for &value in values {

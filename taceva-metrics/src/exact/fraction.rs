@@ -29,12 +29,12 @@ impl Fraction {
         }
     }
 
-    /// 0.
+    /// The fraction 0.
     pub fn zero() -> Fraction {
         Fraction::of(Dyadic::from(0), 1)
     }
 
-    /// Exact sum of both fractions.
+    /// self + `other`, exactly.
     pub fn plus(&self, other: &Fraction) -> Fraction {
         Fraction {
             above: &(&self.above * &other.below) + &(&other.above * &self.below),
@@ -42,7 +42,7 @@ impl Fraction {
         }
     }
 
-    /// Exact difference of both fractions.
+    /// self − `other`, exactly.
     pub fn minus(&self, other: &Fraction) -> Fraction {
         Fraction {
             above: &(&self.above * &other.below) - &(&other.above * &self.below),
@@ -80,7 +80,7 @@ impl Fraction {
         }
     }
 
-    /// Nearest binary64.
+    /// Binary64 nearest to the fraction.
     pub fn to_f64(&self) -> f64 {
         self.above.over(&self.below)
     }

@@ -1,25 +1,27 @@
 //! Vector sums without rounding, for values in a known range of magnitudes.
 //!
-//! A large first summand determines the rounding: 1.5 × 2ᵏ plus small values is a multiple of 2^(k−52), and two subtractions return the
-//! cut-off part exactly. A second sum of the same kind collects this part. Each sum stays within one binade, so its bit pattern, read as an
-//! integer, counts its units. After Demmel and Nguyen, "Parallel Reproducible Summation", 2015, who round the remainder; this code keeps the remainder.
+//! A large first summand, 1.5 × 2ᵏ, fixes the rounding: its sum with small values is a multiple of 2^(k−52). Two subtractions return the cut-off part
+//! of a value exactly. A second sum of the same kind, the fine sum, collects these parts. Each sum stays between 2ᵏ and 2^(k+1), so its bit pattern,
+//! read as an integer, counts its units of 2^(k−52). After Demmel and Nguyen, "Parallel Reproducible Summation", 2015, who round the remainder; this
+//! code keeps the remainder.
 
 use super::vector::Vector;
 
-/// Greatest number of values added to a lane before its units must be read.
+/// Greatest number of values added to one lane of a vector before the numbers of units must be read.
 pub(super) const DEPTH: usize = 128;
-/// Exponent offset of the coarse sum from the greatest exponent e of a value. Room at the ends of the binade: 2⁷ values below 2^(e+1), a factor
-/// of 2 for 1.5 × 2ᵏ, and 2 in reserve.
+/// Exponent k of the start 1.5 × 2ᵏ of the coarse sum, minus the greatest exponent e of a value. 2⁷ values below 2^(e+1) add less than 2^(e+8). Twice
+/// this sum keeps the result between 2ᵏ and 2^(k+1).
 const COARSE: i32 = 10;
-/// Exponent offset of the fine sum from the greatest exponent e of a value. 2⁷ cut-off parts below 2^(e−42) leave room in the binade.
+/// Exponent k of the start 1.5 × 2ᵏ of the fine sum, minus the greatest exponent e of a value. 2⁷ cut-off parts below 2^(e−42) keep the result
+/// between 2ᵏ and 2^(k+1).
 const FINE: i32 = -34;
 /// Bits of a mantissa after the leading bit.
 const FRACTION: i32 = 52;
 
-/// Grid for sums of values below 2^(top + 1) in magnitude.
+/// Grid: fixed units for sums of values below 2^(top + 1) in magnitude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Grid {
-    /// Exponent of the greatest value.
+    /// Exponent of two of the greatest magnitude.
     pub(super) top: i32,
 }
 
@@ -31,22 +33,23 @@ impl Grid {
         }
     }
 
-    /// Grid of the rounding errors of the products on [`Grid::of_products`].
+    /// Grid of the rounding errors of products of values on this grid and on `other`.
     pub(super) fn of_errors_of_products(self, other: Grid) -> Grid {
         Grid {
             top: self.top + other.top - FRACTION - 1,
         }
     }
 
-    /// Greatest distance of a value's exponent below the top for which the value's last place is a unit of the fine sum.
+    /// Greatest distance from the top of the grid down to the exponent of a value. The value's last place is then at least a unit of the fine sum.
     pub(super) const REACH: i32 = -FINE;
-    /// Greatest distance as in [`REACH`](Grid::REACH) for a value that is squared, or multiplied by a value of another grid.
+    /// Greatest distance from the top down to the exponent of a value that is squared, or multiplied by a value of another grid.
     ///
-    /// For exponent e and top t, the last place of a rounded square needs 2e − 52 ≥ 2t + 1 − `REACH` − 52. Its rounding error ends at 2e − 104, on a
-    /// grid of top 2t − 53, and allows one exponent more. For a product, both exponents and both tops add up.
+    /// Let e be the exponent of the value and t the top. The last place of the rounded square, 2e − 52, must be at least the unit 2t + 1 − `REACH` −
+    /// 52. The rounding error of the square ends at 2e − 104, on a grid of top 2t − 53, and allows one exponent more. For a product, both exponents
+    /// and both tops add up.
     pub(super) const REACH_OF_SQUARES: i32 = (Grid::REACH - 1) / 2;
 
-    /// Exponents of the units of both sums, coarse first.
+    /// Exponents of two of the units of the coarse sum and of the fine sum.
     pub(super) fn units(self) -> [i32; 2] {
         [COARSE, FINE].map(|height| self.top + height - FRACTION)
     }
@@ -92,7 +95,7 @@ impl<V: Vector> GridSum<V> {
         self.coarse.all_at_most(self.start[0].plus(self.start[0]))
     }
 
-    /// Numbers of units of both sums; [`Grid::units`] returns the exponents of the units.
+    /// Numbers of units in the coarse sum and in the fine sum, over all lanes; [`Grid::units`] returns the exponents of the units.
     #[inline(always)]
     pub(super) fn units(self) -> [i64; 2] {
         [
@@ -110,7 +113,7 @@ pub(super) struct ProductSum<V> {
 }
 
 impl<V: Vector> ProductSum<V> {
-    /// Empty sum of products of values on both grids.
+    /// Empty sum of products of a value on grid `left` and a value on grid `right`.
     #[inline(always)]
     pub(super) fn new(proof: V::Proof, [left, right]: [Grid; 2]) -> ProductSum<V> {
         ProductSum {
@@ -133,14 +136,14 @@ impl<V: Vector> ProductSum<V> {
         self.rounded.is_sound()
     }
 
-    /// Numbers of units of both sums.
+    /// Numbers of units in the sum of rounded products and in the sum of their rounding errors.
     #[inline(always)]
     pub(super) fn units(self) -> ProductUnits {
         [self.rounded.units(), self.lost.units()]
     }
 }
 
-/// Numbers of units of the rounded products, and of their rounding errors.
+/// Numbers of units, coarse and fine, of the rounded products and of their rounding errors.
 pub(super) type ProductUnits = [[i64; 2]; 2];
 
 /// 2^exponent, for exponents of normal numbers.
@@ -158,7 +161,7 @@ mod tests {
     use crate::exact::machine::Machine;
     use crate::exact::vector::Job;
 
-    /// Adds all values in turn, in every lane.
+    /// Job that adds the values one after another in every lane of a vector.
     struct Add<'a> {
         grid: Grid,
         values: &'a [f64],

@@ -123,7 +123,7 @@ impl Natural {
         (root, is_square)
     }
 
-    /// At most 64 leading bits, true if a lower bit is set, and the exponent of the last returned bit.
+    /// Leading bits, at most 64; true if a lower bit is set; and the exponent of two of the last returned bit.
     pub(super) fn leading_bits(&self) -> (u64, bool, i32) {
         let places = self.bits().saturating_sub(64);
         let (leading, lost) = self.shifted_down(places);
@@ -137,9 +137,9 @@ impl Natural {
 
     /// Leading 63 or 64 bits of `self / divisor`, true if they are inexact, and the exponent of the last returned bit.
     ///
-    /// Both numbers must be nonzero. One step of long division in base 2⁶⁴: the divisor is shifted until the top bit of its limb is set, and
-    /// the dividend to one limb more. The guess from the leading limbs then exceeds the quotient by at most two (Knuth, The Art of Computer
-    /// Programming 2, 4.3.1, theorem B).
+    /// Both numbers must be nonzero. The code does one step of long division in base 2⁶⁴. A shift sets the top bit of the highest limb of the
+    /// divisor. Another shift gives the dividend one limb more than the divisor. The quotient of the leading limbs then exceeds the true quotient by
+    /// at most two (Knuth, The Art of Computer Programming 2, 4.3.1, theorem B).
     pub(super) fn leading_quotient(&self, divisor: &Natural) -> (u64, bool, i64) {
         let length = divisor.limbs.len();
         let raised = 64 * length - divisor.bits();
@@ -182,7 +182,7 @@ impl Ord for Natural {
     }
 }
 
-/// Adds `other` in place. Returns true for a carry out of the top limb.
+/// Adds `other` to `limbs` in place. Returns true for a carry out of the top limb.
 fn add_to(limbs: &mut [u64], other: &[u64]) -> bool {
     let mut carried = false;
     let padded = other.iter().copied().chain(std::iter::repeat(0));
@@ -194,7 +194,7 @@ fn add_to(limbs: &mut [u64], other: &[u64]) -> bool {
     carried
 }
 
-/// Subtracts `factor × other` in place. Returns true for a borrow from above the top limb.
+/// Subtracts `factor × other` from `limbs` in place. Returns true for a borrow from above the top limb.
 fn subtract_multiple(limbs: &mut [u64], other: &[u64], factor: u64) -> bool {
     let mut carried = 0;
     let padded = other.iter().copied().chain(std::iter::repeat(0));

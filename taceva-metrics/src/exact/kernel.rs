@@ -1,8 +1,8 @@
-//! Inner loops that sum a block of pairs in units of the streams' grids.
+//! Inner loops that sum a block of pairs in integer numbers of fixed units.
 //!
-//! A block is visited twice: once for the sums of y − ŷ and once for the other sums. The sums of one visit then fit the registers of any machine.
-//! Between the visits the block stays in the L1 cache. The first visit also checks that all pairs are within [`Bounds`]. If a pair is outside, the
-//! sums of this visit are discarded.
+//! A block is visited twice: once for the sums of residuals, truth − prediction, and once for the other sums. The sums of one visit then fit the
+//! registers of any processor. Between the visits the block stays in the L1 cache. The first visit also checks that all pairs are within [`Bounds`].
+//! If a pair is outside, the sums of this visit are discarded.
 
 use super::bounds::{Bounds, Grids, TERMS};
 use super::grid::{DEPTH, GridSum, ProductSum, ProductUnits};
@@ -18,16 +18,16 @@ pub(super) const BLOCK_ROWS: usize = 512;
 #[derive(Clone, Copy)]
 pub(super) struct Block<'a> {
     pub(super) pairs: Paired<&'a [f64]>,
-    /// Pairs of the next block, prefetched during the sums of this block.
+    /// Pairs of the next block, prefetched while this block is summed.
     pub(super) next: Paired<&'a [f64]>,
     pub(super) streams: Streams,
-    /// Least |y| of a pair in the gated sum; `None` without a gated sum.
+    /// Least magnitude of the truth of a pair in the gated sum; `None` without a gated sum.
     pub(super) gate: Option<f64>,
     pub(super) grids: Grids,
     pub(super) bounds: Bounds,
 }
 
-/// Units of the sums of y − ŷ.
+/// Numbers of units in the sums of residuals, truth − prediction.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ErrorUnits {
     pub(super) absolute: [i64; 2],
@@ -45,7 +45,7 @@ impl ErrorUnits {
     }
 }
 
-/// Units of the sums over y, and of the sums over y and ŷ.
+/// Numbers of units in the sums of truths and in the sums of sMAPE terms, with the number of gated pairs.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ValueUnits {
     pub(super) truth: [i64; 2],
@@ -77,9 +77,9 @@ pub(super) fn add_products(units: &mut ProductUnits, [rounded, lost]: ProductUni
 }
 
 impl Block<'_> {
-    /// Rows of a block on `machine`: as many as the lanes accept.
+    /// Greatest number of rows of a block on `machine`, limited by the lanes of a vector.
     pub(super) fn rows_on(machine: Machine) -> usize {
-        /// Returns the vector width of a machine.
+        /// Job that returns the number of lanes of a vector.
         struct Lanes;
         impl Job for Lanes {
             type Output = usize;
@@ -91,7 +91,7 @@ impl Block<'_> {
         (DEPTH * machine.run(Lanes)).min(BLOCK_ROWS)
     }
 
-    /// Sums of the streams of y − ŷ; `None` if a pair is out of bounds.
+    /// Sums of the streams of residuals; `None` if a pair is out of bounds.
     pub(super) fn errors(self, machine: Machine) -> Option<ErrorUnits> {
         const A: u8 = Streams::of(&[Stream::Absolute]).bits();
         const R: u8 = Streams::of(&[Stream::Residual]).bits();
@@ -106,7 +106,7 @@ impl Block<'_> {
         }
     }
 
-    /// Sums of the other streams, for a block with all pairs within bounds.
+    /// Sums of the streams of truths and of sMAPE terms. All pairs of the block must be within bounds.
     pub(super) fn values(self, machine: Machine) -> ValueUnits {
         const Y: u8 = Streams::of(&[Stream::Truth]).bits();
         const S: u8 = Streams::of(&[Stream::TruthSquared]).bits();
@@ -126,12 +126,12 @@ const fn has(streams: u8, stream: Stream) -> bool {
     streams & Streams::of(&[stream]).bits() != 0
 }
 
-/// Visitor of vectors of pairs.
+/// Visitor that receives pairs as vectors.
 pub(super) trait Visit<V> {
     fn visit(&mut self, estimate: V, reference: V);
 }
 
-/// Rows per cache line of one column.
+/// Number of rows in a cache line of one column.
 const LINE_ROWS: usize = 8;
 
 /// Passes all pairs to `visitor`, with the last vector padded by zeros, and prefetches the cache lines of `next`.
@@ -167,14 +167,14 @@ pub(super) fn visit_all<V: Vector>(
     }
 }
 
-/// First visit: sums of y − ŷ.
+/// First visit of a block: sums of residuals.
 struct Errors<'a, const STREAMS: u8>(Block<'a>);
 
 struct ErrorSums<V, const STREAMS: u8> {
     one: V,
     greatest_residual: V,
     greatest_truth: V,
-    /// Predecessors of the least nonzero magnitudes.
+    /// Predecessor of the least nonzero magnitude of a residual, in each lane.
     least_residual: V,
     least_truth: V,
     absolute: GridSum<V>,
@@ -239,7 +239,7 @@ impl<const STREAMS: u8> Job for Errors<'_, STREAMS> {
     }
 }
 
-/// Second visit: the other sums.
+/// Second visit of a block: sums of truths and of sMAPE terms.
 struct Values<'a, const STREAMS: u8, const GATED: bool>(Block<'a>);
 
 struct ValueSums<V, const STREAMS: u8, const GATED: bool> {

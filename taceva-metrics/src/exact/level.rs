@@ -1,4 +1,4 @@
-//! Values in whole steps, so that rounding affects no comparison with a bound and no choice of a bin.
+//! Values as integers, so that rounding affects neither comparisons with a bound nor the choice of a bin.
 
 use taceva_core::{Nanometre, Unit};
 
@@ -16,12 +16,12 @@ pub(crate) fn millionths(value: f64) -> Option<i64> {
     Nanometre::from_millimetres(value).map(|millionths| millionths.0)
 }
 
-/// Whole millionths in the unit, rounded once.
+/// Converts `millionths` of a unit to a value in this unit, rounded once.
 pub(crate) fn from_millionths(millionths: i64) -> f64 {
     Nanometre(millionths).to_millimetres()
 }
 
-/// Width of a level, in millionths of the unit: 0.1 mm and 0.1 N, 1 degree and 1 N mm.
+/// Width of a level, a bin of truths, in millionths of the unit: 0.1 mm and 0.1 N, 1 degree and 1 N mm.
 ///
 /// `None` for other units.
 pub(crate) fn step(unit: Unit) -> Option<i64> {

@@ -39,7 +39,7 @@ impl Machine {
         }
     }
 
-    /// Machine that uses the set of [`Isa::detect`].
+    /// Machine that uses the instruction set of [`Isa::detect`].
     pub(crate) fn detect() -> Machine {
         Machine::with(Isa::detect()).unwrap_or(Machine::Portable(Portable))
     }

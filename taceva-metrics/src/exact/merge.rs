@@ -1,4 +1,4 @@
-//! Merging of summaries.
+//! Merging of summaries of samples.
 
 use std::collections::BTreeMap;
 
@@ -6,9 +6,9 @@ use crate::exact::sorted_map::SortedMap;
 
 /// Summary with an exact merge. Merging the same summary twice counts its samples twice.
 pub(crate) trait Merge {
-    /// Adds `other`.
+    /// Adds the samples of `other`.
     fn merge(&mut self, other: &Self);
-    /// Adds `other` `times` times.
+    /// Adds the samples of `other` `times` times.
     fn merge_times(&mut self, other: &Self, times: u32) {
         (0..times).for_each(|_| self.merge(other));
     }
@@ -30,9 +30,9 @@ impl<T: Merge, const N: usize> Merge for [T; N] {
     }
 }
 
-/// Map from entries. The last entry of a name replaces earlier entries.
+/// Collects entries into a map. The last entry of a name replaces earlier entries.
 ///
-/// Unlike `collect`, the function has no separate sorting code for each type of iterator, which took a tenth of the compile time.
+/// Calls of `collect` would compile sorting code for each type of iterator, a tenth of the compile time.
 pub(crate) fn keyed<T>(entries: impl IntoIterator<Item = (String, T)>) -> BTreeMap<String, T> {
     let mut cells = BTreeMap::new();
     for (key, entry) in entries {
@@ -41,7 +41,7 @@ pub(crate) fn keyed<T>(entries: impl IntoIterator<Item = (String, T)>) -> BTreeM
     cells
 }
 
-/// Merges sums by key. A key without sums is omitted, so equal sets have equal maps.
+/// Merges the sums `theirs` into `ours`, key by key. A key in `theirs` alone is copied.
 pub(crate) fn merge_cells<K: Ord + Clone, T: Merge + Clone>(
     ours: &mut SortedMap<K, T>,
     theirs: &SortedMap<K, T>,

@@ -44,7 +44,7 @@ impl Moments {
         (self.n > 0).then(|| self.sum.to_dyadic().over(&Dyadic::from(self.n)))
     }
 
-    /// Variance with the divisor n − `ddof`, rounded once; `None` for `ddof` values or fewer.
+    /// Variance of the n values, with the divisor n − `ddof`, rounded once; `None` for `ddof` values or fewer.
     pub(crate) fn variance(&self, ddof: u64) -> Option<f64> {
         let freedom = self.n.checked_sub(ddof).filter(|freedom| *freedom > 0)?;
         Some(
@@ -78,7 +78,7 @@ impl Moments {
         }
     }
 
-    /// Reads the record of a state.
+    /// Reads moments from the record of a state.
     pub(crate) fn read_record(record: &Record) -> Result<Moments, String> {
         let ([n], [sum, squares]) = record.exactly()?;
         Ok(Moments {

@@ -1,4 +1,4 @@
-//! Partition of a block into rows that fit its grids, and strays.
+//! Partition of a block into rows that fit its grids and other rows, the strays.
 
 use std::ops::Range;
 
@@ -6,7 +6,7 @@ use super::bounds::Bounds;
 use super::kernel::BLOCK_ROWS;
 use crate::pair::Paired;
 
-/// Rows of a block, with the fitting rows before the strays.
+/// Rows of a block. The rows that fit the grids come first, then the others, the strays.
 pub(super) struct Parts {
     estimate: [f64; BLOCK_ROWS],
     reference: [f64; BLOCK_ROWS],
@@ -14,7 +14,7 @@ pub(super) struct Parts {
 }
 
 impl Parts {
-    /// Copies fitting pairs to the front and strays to the end.
+    /// Copies pairs within `bounds` to the front, and other pairs to the end.
     pub(super) fn divide(&mut self, pairs: Paired<&[f64]>, bounds: &Bounds) {
         let (mut fitting, mut strays) = (0, 0);
         for pair in pairs.iter() {

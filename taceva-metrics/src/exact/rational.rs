@@ -85,7 +85,7 @@ impl Dyadic {
 
     /// Binary64 nearest to √(self / divisor), rounded once, even if the quotient is out of range; 0 for a negative quotient.
     ///
-    /// The code computes about 70 bits of the root in integers: the integer part of √(a 2ᵏ / b) and a flag for the remainder determine the rounding.
+    /// The code computes at least 64 bits of the root in integers. These bits and a flag for the remainder determine the rounding.
     ///
     /// # Panics
     /// If `divisor` is zero.
@@ -117,7 +117,7 @@ impl Dyadic {
         )
     }
 
-    /// The same value with its last place at `exponent`, which must not exceed the present exponent.
+    /// Magnitude in units of 2^`exponent`. The argument must not exceed the exponent of the number.
     fn magnitude_at(&self, exponent: i32) -> Natural {
         let places = usize::try_from(self.exponent - exponent).expect("the lower exponent of two");
         self.magnitude.shifted_up(places)

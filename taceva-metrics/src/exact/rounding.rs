@@ -1,16 +1,15 @@
-//! Rounding to binary64; no other code rounds.
+//! Rounding of exact results to binary64. No other code rounds exact results.
 
 /// The binary64 nearest to `±(mantissa + rest) × 2^exponent`, ties to even, with `0 ≤ rest < 1`. `inexact` is true if `rest` is not zero.
 ///
-/// An inexact mantissa must have at least 55 bits, so that rounding has all bits. Overflow gives infinity; underflow keeps
-/// the sign.
+/// An inexact mantissa must have at least 55 bits, two more than a binary64 keeps. Overflow gives infinity; underflow keeps the sign.
 pub(super) fn round(negative: bool, mantissa: u64, inexact: bool, exponent: i32) -> f64 {
     let magnitude = round_magnitude(mantissa, inexact, exponent);
     if negative { -magnitude } else { magnitude }
 }
 
 fn round_magnitude(mantissa: u64, inexact: bool, exponent: i32) -> f64 {
-    /// Weight of the last place of the least normal number and of all denormals.
+    /// Exponent of two of the last place of the least normal number and of all denormals.
     const LEAST: i32 = -1074;
     if mantissa == 0 {
         return 0.0;

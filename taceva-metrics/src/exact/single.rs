@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use crate::exact::merge::Merge;
 use crate::exact::{Dyadic, ExactSum};
 
-/// Exact number of a finite `value`.
+/// Exact copy of a finite `value`.
 pub(crate) fn exactly(value: f64) -> Dyadic {
     ExactSum::from_iter([value]).to_dyadic()
 }
@@ -19,7 +19,7 @@ pub(crate) fn sign(value: &Dyadic) -> Ordering {
     }
 }
 
-/// |value|.
+/// Absolute value of `value`.
 pub(crate) fn magnitude(value: Dyadic) -> Dyadic {
     match sign(&value) {
         Ordering::Less => -value,

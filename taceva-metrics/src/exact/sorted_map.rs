@@ -1,12 +1,12 @@
-//! Map sorted by key. Each pair of types compiles to a small fraction of the code of a `BTreeMap`.
+//! Map sorted by key. Each pair of key and value types produces far less machine code than with a `BTreeMap`.
 
 use std::borrow::Borrow;
 use std::slice;
 
-/// Greatest number of entries of a run. A longer run is split.
+/// Greatest number of entries of a run, a sorted array of entries. A longer run is split.
 const RUN: usize = 128;
 
-/// Entries by key, in ascending runs of 1 to [`RUN`] entries.
+/// Map of entries in ascending order of keys, stored in sorted arrays (runs) of 1 to [`RUN`] entries.
 #[derive(Clone, Debug)]
 pub(crate) struct SortedMap<K, V> {
     runs: Vec<Vec<(K, V)>>,
@@ -18,7 +18,7 @@ impl<K, V> Default for SortedMap<K, V> {
     }
 }
 
-/// Search result for a key.
+/// Position of a key, or the position at which to insert the key.
 struct Place {
     run: usize,
     at: usize,
@@ -119,7 +119,7 @@ impl<K: Ord, V> SortedMap<K, V> {
         &mut self.runs[run][at].1
     }
 
-    /// Inserts an entry at `place` and returns its position.
+    /// Inserts an entry at `place`. Returns the indices of its run and of the entry in the run.
     fn put(&mut self, place: &Place, key: K, value: V) -> [usize; 2] {
         let &Place { run, at, .. } = place;
         let entry = (key, value);

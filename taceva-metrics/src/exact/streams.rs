@@ -1,4 +1,4 @@
-//! Streams: quantities of a pair whose sums determine scores.
+//! Streams: quantities of a pair of truth and prediction. The sums of streams determine scores.
 
 use std::fmt;
 use std::ops::BitOr;
@@ -13,17 +13,17 @@ use std::ops::BitOr;
 #[repr(u8)]
 #[non_exhaustive]
 pub enum Stream {
-    /// |d|.
+    /// Absolute residual, |d|.
     Absolute,
-    /// d, the residual.
+    /// Residual d, truth − prediction.
     Residual,
-    /// d², exact.
+    /// Exact square of the residual, d².
     Squared,
-    /// y, the truth.
+    /// Truth, y.
     Truth,
-    /// y², exact.
+    /// Exact square of the truth, y².
     TruthSquared,
-    /// The term of sMAPE, t = RN(|d| / RN(RN(RN(|y| + |ŷ|) × 0.5) + ε)).
+    /// Term of sMAPE, t = RN(|d| / RN(RN(RN(|y| + |ŷ|) × 0.5) + ε)), with ε = 10⁻⁸.
     Symmetric,
 }
 
@@ -38,7 +38,7 @@ impl Stream {
         Stream::Symmetric,
     ];
 
-    /// Name in states.
+    /// Name of the stream in states.
     pub const fn name(self) -> &'static str {
         match self {
             Stream::Absolute => "abs_d",

@@ -8,16 +8,16 @@ use super::digits::{
 };
 use super::rational::Dyadic;
 
-/// Number of digits of the inline window. Sums of one quantity rarely need more.
+/// Number of digits stored inline, without an allocation. Sums of one quantity rarely need more.
 const WINDOW: usize = 8;
 
-/// Position of the bit with weight one.
+/// Position of the bit of weight 1, counted from the lowest bit of a sum.
 const UNIT_POSITION: usize = 2176;
-/// Greatest number of deposits between carries. Each deposit changes a digit by less than 2⁵³, so 1000 of them fit an `i64`.
+/// Greatest number of additions between propagations of carries. Each addition changes a digit by less than 2⁵³, so 1000 of them fit an `i64`.
 const DEPOSITS: u32 = 1000;
-/// Position of the mantissa of the least denormal number.
+/// Position of the bit of weight 2⁻¹⁰⁷⁴, the least denormal number.
 const DENORMAL_POSITION: usize = UNIT_POSITION - 1074;
-/// Position of the square of the least denormal number.
+/// Position of the bit of weight 2⁻²¹⁴⁸, the square of the least denormal number.
 const DENORMAL_SQUARE_POSITION: usize = UNIT_POSITION - 2148;
 
 /// Exact sum of binary64 numbers, and of products of two binary64 numbers.
@@ -25,7 +25,7 @@ const DENORMAL_SQUARE_POSITION: usize = UNIT_POSITION - 2148;
 /// Adding, merging and subtracting never round; [`to_f64`](ExactSum::to_f64) rounds once. Sums of equal value compare equal, however they
 /// were computed.
 ///
-/// The sum is a fixed-point number of 32-bit digits, each in an `i64` whose upper half collects carries. A deposit changes only a few neighbouring
+/// The sum is a fixed-point number of 32-bit digits, each in an `i64` whose upper half collects carries. An addition changes only a few neighbouring
 /// digits. Eight digits around the summed values are stored inline. The full range is allocated only for sums that need more.
 ///
 /// ```
@@ -39,11 +39,11 @@ const DENORMAL_SQUARE_POSITION: usize = UNIT_POSITION - 2148;
 #[derive(Clone, Default)]
 pub struct ExactSum {
     window: [i64; WINDOW],
-    /// Index of the digit `window[0]`.
+    /// Index of the digit in `window[0]`.
     first: u32,
-    /// Deposits left before the next propagation of carries; 0 in a new sum, which has no window yet.
+    /// Additions left before the next propagation of carries; 0 in a new sum, whose window has no position yet.
     deposits_left: u32,
-    /// All digits, allocated if the window is too narrow.
+    /// All digits, allocated if the inline digits are too few.
     full: Option<Box<[i64; DIGITS]>>,
 }
 
@@ -166,7 +166,7 @@ impl ExactSum {
         self.deposit_parts(position, split(square, position));
     }
 
-    /// Adds nonzero parts. Zeros would only widen the window.
+    /// Adds `parts` from the digit of bit `position` on, unless all are zero. Zeros would only widen the range of stored digits.
     #[inline]
     fn deposit_parts<const PARTS: usize>(&mut self, position: usize, parts: [i64; PARTS]) {
         if parts != [0; PARTS] {
@@ -203,7 +203,7 @@ impl ExactSum {
         self.deposits_left -= 1;
     }
 
-    /// Propagates carries and moves the window to include digits `low..high`, or allocates the full range.
+    /// Propagates carries and moves the inline digits to include the indices `low..high`. Allocates all digits if the inline digits are too few.
     fn make_room(&mut self, low: usize, high: usize) {
         let (digits, old_first) = self.carried_window();
         let (mut low, mut high) = (low, high);
@@ -238,7 +238,7 @@ impl ExactSum {
         self.first = u32::try_from(first).expect("a digit's index is below 140");
     }
 
-    /// Window with propagated carries, and the index of its first digit.
+    /// Inline digits with propagated carries, and the index of the first of them.
     fn carried_window(&self) -> ([i64; WINDOW + 2], usize) {
         let mut digits = [0; WINDOW + 2];
         digits[..WINDOW].copy_from_slice(&self.window);

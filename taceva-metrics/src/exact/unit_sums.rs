@@ -1,4 +1,4 @@
-//! Sums in whole units of grids, before the units move to a superaccumulator.
+//! Sums as integer numbers of fixed units, before they move to an [`ExactSum`].
 
 use super::bounds::{Bounds, Grids, TERMS};
 use super::grid::{Grid, ProductUnits};
@@ -6,21 +6,21 @@ use super::kernel::{ErrorUnits, ValueUnits};
 use super::sum::ExactSum;
 use crate::exact::streams::{Stream, Streams};
 
-/// Number of rows on the grids per tolerated stray, in addition to [`FREE_STRAYS`].
+/// Number of fitting rows per tolerated stray, a row outside the grids. [`FREE_STRAYS`] more are tolerated.
 const ROWS_PER_STRAY: usize = 16;
 
 const FREE_STRAYS: usize = 16;
 
-/// Units that are not yet in a superaccumulator.
+/// Numbers of units that are not yet in an [`ExactSum`], with their grids and bounds.
 #[derive(Clone, Debug)]
 pub(super) struct Pending {
     pub(super) grids: Grids,
     pub(super) bounds: Bounds,
     pub(super) errors: ErrorUnits,
     pub(super) values: ValueUnits,
-    /// Rows whose units are pending.
+    /// Rows summed in these units.
     pub(super) rows: usize,
-    /// Rows on these grids since they were chosen; `strays` counts the other rows.
+    /// Rows summed on these grids since the grids were chosen; `strays` counts the rows that did not fit.
     pub(super) rows_on_grids: usize,
     pub(super) strays: usize,
 }
@@ -38,7 +38,7 @@ impl Pending {
         }
     }
 
-    /// Greatest number of strays before other grids are chosen.
+    /// Greatest number of strays, rows that do not fit, before other grids are chosen.
     pub(super) fn free_strays(&self) -> usize {
         FREE_STRAYS + self.rows_on_grids / ROWS_PER_STRAY
     }

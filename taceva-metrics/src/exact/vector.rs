@@ -1,4 +1,4 @@
-//! Vector operations for the block kernels.
+//! Vector operations for the inner loops of sums.
 
 /// A vector of binary64 numbers.
 ///
@@ -19,7 +19,7 @@ pub(crate) trait Vector: Copy {
 
     /// self + other, rounded.
     fn plus(self, other: Self) -> Self;
-    /// self + other, rounded, on the less busy unit: the multiplier computes self + other × one.
+    /// self + other, rounded. Where the adder is busier than the multiplier, the multiplier computes self + other × one.
     ///
     /// `one` is 1 in every lane. The compiler must not see this value, because it would replace the product by an addition.
     fn plus_aside(self, other: Self, one: Self) -> Self;
@@ -29,7 +29,7 @@ pub(crate) trait Vector: Copy {
     fn times(self, other: Self) -> Self;
     /// self / other, rounded.
     fn over(self, other: Self) -> Self;
-    /// |self|.
+    /// Absolute value of each lane.
     fn magnitude(self) -> Self;
     /// Rounded product self × other, and its rounding error, which is exact without over- and underflow.
     fn product(self, other: Self) -> [Self; 2];
@@ -38,17 +38,17 @@ pub(crate) trait Vector: Copy {
     fn greatest(self, other: Self) -> Self;
     /// Lane-wise minimum; `other` if a number is NaN.
     fn least(self, other: Self) -> Self;
-    /// Bit pattern minus one: the next smaller number for a positive number, NaN for a zero.
+    /// Bit pattern minus one: for a positive number the next smaller number, for a zero NaN.
     fn predecessor(self) -> Self;
     /// True if each lane is at most the same lane of `bound`; false if a number is NaN.
     fn all_at_most(self, bound: Self) -> bool;
 
-    /// `value` in the lanes with `self` of at least `bound`, zero in the other lanes.
+    /// `value` in the lanes where self is at least `bound`, zero in the other lanes.
     fn keep_at_least(self, bound: Self, value: Self) -> Self;
-    /// Number of lanes with `self` of at least `bound`.
+    /// Number of lanes where self is at least `bound`.
     fn count_at_least(self, bound: Self) -> u32;
 
-    /// Sum of the lanes' distances from `start`, in units of the last place of `start`. All numbers must be in one binade.
+    /// Sum of the lanes' distances from `start`, in units of the last place of `start`. All numbers must have one exponent.
     fn units_above(self, start: Self) -> i64;
 
     /// Prefetches `values`, if the machine has a prefetch instruction.

@@ -1,4 +1,4 @@
-//! Accuracy of predictions: sums of each channel's pairs, and of the distances in planes.
+//! Accuracy of predictions: sums of the pairs of each channel, and of distances in planes such as `Pxy`.
 
 mod gate;
 pub(crate) mod pair_sums;

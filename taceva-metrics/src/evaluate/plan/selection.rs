@@ -1,4 +1,4 @@
-//! Selects the metrics of a plan, and the required fields.
+//! Selection of a plan's metrics and of the fields that they read.
 
 use std::collections::BTreeMap;
 
@@ -56,7 +56,7 @@ impl MetricPlan {
         MetricPlan { facts, ..self }.decided()
     }
 
-    /// Determines the computed metrics and the required fields.
+    /// Selects the metrics to compute and the fields to read.
     fn decided(mut self) -> MetricPlan {
         self.kept.clear();
         self.skipped.clear();

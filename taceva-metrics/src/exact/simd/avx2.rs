@@ -1,4 +1,4 @@
-//! Four numbers per vector: AVX2 with fused multiplication.
+//! Four numbers per vector: AVX2 with fused multiply-add.
 
 #![expect(unsafe_code, reason = "vector instructions and loads")]
 
@@ -19,7 +19,7 @@ use crate::exact::vector::{Job, Vector};
 pub(crate) struct Avx2(());
 
 impl Avx2 {
-    /// Detects the features of this processor; `None` if it lacks a needed feature.
+    /// Proof for this processor; `None` if AVX2, FMA or POPCNT is missing.
     pub(in crate::exact) fn detect() -> Option<Avx2> {
         let found = is_x86_feature_detected!("avx2")
             && is_x86_feature_detected!("fma")
@@ -27,7 +27,7 @@ impl Avx2 {
         found.then_some(Avx2(()))
     }
 
-    /// Runs `job` with vectors of four.
+    /// Runs `job` with vectors of four numbers.
     pub(in crate::exact) fn run<J: Job>(self, job: J) -> J::Output {
         #[target_feature(enable = "avx2,fma,popcnt")]
         fn with_instructions<J: Job>(proof: Avx2, job: J) -> J::Output {
@@ -38,11 +38,11 @@ impl Avx2 {
     }
 }
 
-/// Four numbers. Construction requires the proof or other vectors.
+/// Vector of four numbers, created from the proof or from other vectors.
 #[derive(Clone, Copy)]
 struct Four(__m256d);
 
-/// One instruction on values whose existence proves that the machine has the instruction.
+/// Runs one instruction. Its operands exist only on a machine with AVX2.
 macro_rules! with_avx2 {
     ($instruction:expr) => {
         // SAFETY: a `Four` or an `Avx2` exists only on machines with AVX2 and FMA; no memory is accessed.

@@ -17,13 +17,13 @@ use crate::exact::vector::{Job, Vector};
 pub(crate) struct Avx512(());
 
 impl Avx512 {
-    /// Detects the features of this processor; `None` if it lacks a needed feature.
+    /// Proof for this processor; `None` if AVX-512F or POPCNT is missing.
     pub(in crate::exact) fn detect() -> Option<Avx512> {
         let found = is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("popcnt");
         found.then_some(Avx512(()))
     }
 
-    /// Runs `job` with vectors of eight.
+    /// Runs `job` with vectors of eight numbers.
     pub(in crate::exact) fn run<J: Job>(self, job: J) -> J::Output {
         #[target_feature(enable = "avx512f,popcnt")]
         fn with_instructions<J: Job>(proof: Avx512, job: J) -> J::Output {
@@ -34,11 +34,11 @@ impl Avx512 {
     }
 }
 
-/// Eight numbers. Construction requires the proof or other vectors.
+/// Vector of eight numbers, created from the proof or from other vectors.
 #[derive(Clone, Copy)]
 struct Eight(__m512d);
 
-/// One instruction on values whose existence proves that the machine has the instruction.
+/// Runs one instruction. Its operands exist only on a machine with AVX-512F.
 macro_rules! with_avx512 {
     ($instruction:expr) => {
         // SAFETY: an `Eight` or an `Avx512` exists only on machines with AVX-512F; no memory is accessed.

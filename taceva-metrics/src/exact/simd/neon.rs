@@ -1,4 +1,4 @@
-//! Two numbers per vector: NEON, which every 64-bit ARM has, fused multiplication included.
+//! Two numbers per vector: NEON with fused multiply-add, which every 64-bit ARM processor has.
 
 #![expect(unsafe_code, reason = "vector instructions and loads")]
 
@@ -16,12 +16,12 @@ use crate::exact::vector::{Job, Vector};
 pub(crate) struct Neon(());
 
 impl Neon {
-    /// Detects the features of this processor; `None` if it lacks NEON.
+    /// Proof for this processor; `None` if NEON is missing.
     pub(in crate::exact) fn detect() -> Option<Neon> {
         std::arch::is_aarch64_feature_detected!("neon").then_some(Neon(()))
     }
 
-    /// Runs `job` with vectors of two.
+    /// Runs `job` with vectors of two numbers.
     pub(in crate::exact) fn run<J: Job>(self, job: J) -> J::Output {
         #[target_feature(enable = "neon")]
         fn with_instructions<J: Job>(proof: Neon, job: J) -> J::Output {
@@ -32,11 +32,11 @@ impl Neon {
     }
 }
 
-/// Two numbers. Construction requires the proof or other vectors.
+/// Vector of two numbers, created from the proof or from other vectors.
 #[derive(Clone, Copy)]
 struct Two(float64x2_t);
 
-/// One instruction on values whose existence proves that the machine has the instruction.
+/// Runs one instruction. Its operands exist only on a machine with NEON.
 macro_rules! with_neon {
     ($instruction:expr) => {
         // SAFETY: a `Two` or a `Neon` exists only on machines with NEON; no memory is accessed.

@@ -2,7 +2,7 @@
 
 use crate::exact::vector::{Job, Vector};
 
-/// Counterpart of the proofs of other instruction sets: every machine can run this code.
+/// Empty proof: every machine can run this code.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Portable;
 
@@ -24,7 +24,7 @@ impl Pair {
     }
 }
 
-/// Rounding error of a product without fused multiplication: Veltkamp's splitting and Dekker's product (1971).
+/// Rounding error of a product without fused multiply-add: Veltkamp's splitting and Dekker's product (1971).
 #[inline(always)]
 fn error_of_product(left: f64, right: f64, product: f64) -> f64 {
     let ([left_high, left_low], [right_high, right_low]) = (split(left), split(right));
@@ -32,7 +32,7 @@ fn error_of_product(left: f64, right: f64, product: f64) -> f64 {
     ((above + left_high * right_low) + left_low * right_high) + left_low * right_low
 }
 
-/// Upper and lower half of a mantissa, with the value as their sum.
+/// Splits a value into a number with the upper half of the mantissa and a number with the lower half. The sum of both is the value.
 #[inline(always)]
 fn split(value: f64) -> [f64; 2] {
     /// 2²⁷ + 1, which splits a mantissa in the middle.

@@ -8,7 +8,7 @@ use crate::exact::streams::{Stream, Streams};
 use crate::exact::{BlockSums, Counts, Dyadic, ExactSum, Machine, Sums};
 use crate::pair::Paired;
 
-/// Streams to sum, and the gate of the gated sum.
+/// Specification of the sums of pairs: streams to sum, and the gate of the gated sum.
 ///
 /// ```
 /// use taceva_metrics::{PairSpec, Streams};
@@ -20,12 +20,12 @@ use crate::pair::Paired;
 pub struct PairSpec {
     /// Streams to sum.
     pub streams: Streams,
-    /// Minimum |y| of a sample in the gated sMAPE, in the channel's unit; `None` without a gated sum.
+    /// Least magnitude of the truth of a sample in the gated sMAPE, in the channel's unit; `None` without a gated sum.
     pub gate: Option<f64>,
 }
 
 impl PairSpec {
-    /// Sums of `streams`, without a gated sum.
+    /// Specification of sums of `streams`, without a gated sum.
     pub const fn new(streams: Streams) -> PairSpec {
         PairSpec {
             streams,
@@ -33,7 +33,7 @@ impl PairSpec {
         }
     }
 
-    /// The same sums with a gated sum over samples with |y| of at least `gate`.
+    /// The same specification with a gated sum over samples whose truth has a magnitude of at least `gate`.
     #[must_use]
     pub fn with_gate(self, gate: impl Into<Option<f64>>) -> PairSpec {
         PairSpec {
@@ -92,7 +92,7 @@ impl PairSums {
         self.kept.update(pairs);
     }
 
-    /// Number of pairs.
+    /// Number of summed pairs.
     pub fn n(&self) -> u64 {
         self.kept.counts.valid
     }
@@ -102,7 +102,7 @@ impl PairSums {
         self.kept.counts.invalid
     }
 
-    /// Number of pairs whose truth reaches the gate.
+    /// Number of pairs whose truth has at least the magnitude of the gate.
     pub fn n_gated(&self) -> u64 {
         self.kept.counts.gated
     }
@@ -112,12 +112,12 @@ impl PairSums {
         self.kept.sum(stream)
     }
 
-    /// Sum of the sMAPE terms of pairs whose truth reaches the gate.
+    /// Sum of the sMAPE terms of pairs whose truth has at least the magnitude of the gate.
     pub fn gated_sum(&self) -> ExactSum {
         self.kept.gated_sum()
     }
 
-    /// Gate of the gated sum; `None` without a gated sum.
+    /// Least magnitude of the truth of a pair in the gated sum; `None` without a gated sum.
     pub fn gate(&self) -> Option<f64> {
         gate(self.spec)
     }
@@ -157,7 +157,7 @@ impl PairSums {
         }
     }
 
-    /// n Σ y² − (Σ y)² of the n truths y, exactly. Zero if and only if all truths are equal.
+    /// n Σ y² − (Σ y)² of the n truths y, exactly; zero only if all truths are equal.
     pub(crate) fn scaled_spread(&self) -> Dyadic {
         self.scaled_variance(Stream::Truth, Stream::TruthSquared)
     }
@@ -198,7 +198,7 @@ impl Merge for PairSums {
     }
 }
 
-/// Gate of the specification, if the gated terms are summed.
+/// Gate of the specification; `None` if the sMAPE terms are not summed.
 fn gate(spec: PairSpec) -> Option<f64> {
     let wanted = spec.streams.contains(Stream::Symmetric);
     spec.gate.filter(|_| wanted)
