@@ -39,7 +39,7 @@ pub(crate) static INTRINSIC: Metric = Metric {
     ..Metric::of(&KIND)
 };
 
-/// Optional fields, read if samples have them.
+/// Fields that the metric reads if samples have them.
 pub(crate) const OPTIONAL_FIELDS: FieldSet = FieldSet::EMPTY
     .with(Field::Truth)
     .with(Field::Stamp)

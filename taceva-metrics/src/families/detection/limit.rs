@@ -40,8 +40,8 @@ impl Limit {
     ///
     /// The nᵢ presses at place i are alike, so the n presses count as g = n² / Σ nᵢ² independent presses. `least` is the least g.
     ///
-    /// For true forces x and predicted forces y, S_xx = n Σ x² − (Σ x)², S_yy and S_xy alike, and R = S_xx S_yy − S_xy². The residual deviation s
-    /// over the slope b is √(R S_xx) / (n S_xy) × √(g / (g − 2)). R, S_xx and S_xy are exact. Each root and quotient is rounded once.
+    /// For true forces x and predicted forces y, S_xx = n Σ x² − (Σ x)². S_yy and S_xy are alike, and R = S_xx S_yy − S_xy². The residual
+    /// deviation s over the slope b is √(R S_xx) / (n S_xy) × √(g / (g − 2)). R, S_xx and S_xy are exact. Each root and quotient is rounded once.
     fn of_line(sums: &LightSums, least: u64) -> Result<Limit, UndefinedReason> {
         if !sums.places.are_named() {
             return Err(UndefinedReason::NoClusters);

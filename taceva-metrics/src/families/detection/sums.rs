@@ -73,7 +73,7 @@ impl LineSums {
 }
 
 impl LightSums {
-    /// Converts the sums to the record of a state.
+    /// Converts the sums to a record for a saved state.
     pub(super) fn to_record(&self) -> Record {
         let line = &self.line;
         let range = line.range.map(|range| vec![range.least, range.greatest]);
@@ -88,7 +88,7 @@ impl LightSums {
         }
     }
 
-    /// Reads the record of a state.
+    /// Reads the sums from a record of a saved state.
     pub(super) fn read_record(record: &Record) -> Result<LightSums, String> {
         let (&[n, n_invalid, named], sums) = record.with_cells()?;
         let range = match record.values[..] {
