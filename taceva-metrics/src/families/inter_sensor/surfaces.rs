@@ -31,7 +31,7 @@ struct Places {
     units: SortedMap<String, PlaceSet>,
 }
 
-/// Surface of one unit: points in the order of contact points, with the index of each contact point.
+/// Surface of one unit: its points in a fixed order, and the index of the contact point of each.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Cloud {
     /// Points of the surface, mm.
