@@ -110,8 +110,7 @@ impl Family for Lighting {
         }
     }
 
-    /// Intervals of one channel, by the delta method. `None` for a plane, whose errors are correlated: the mean of its channels has its own
-    /// jackknife.
+    /// Intervals of one channel, by the delta method. `None` for a plane: its errors are correlated, so their mean has its own jackknife.
     fn intervals(
         &self,
         _metric: &Metric,

@@ -110,7 +110,7 @@ impl Plane {
 }
 
 impl Plane {
-    /// Name of an axis that is not in `channels`; `None` if both axes of a plane are. A plane with one axis in `channels` comes first.
+    /// Name of an axis that `channels` lack; `None` if they have both axes of a plane. A plane with one axis in `channels` comes first.
     fn missing_axis(channels: &Channels) -> Option<&'static str> {
         if !planes(channels).is_empty() {
             return None;

@@ -38,7 +38,7 @@ impl Limit {
 
     /// Detection limit by ISO 11843-2, from the line through predicted over true force of n presses.
     ///
-    /// The nᵢ presses at place i are alike, so the n presses count as g = n² / Σ nᵢ² independent presses. `least` is the least g.
+    /// The nᵢ presses at place i are alike, so the n presses count as g = n² / Σ nᵢ² independent presses. Below `least` of them, no limit is defined.
     ///
     /// For true forces x and predicted forces y, S_xx = n Σ x² − (Σ x)². S_yy and S_xy are alike, and R = S_xx S_yy − S_xy². The residual
     /// deviation s over the slope b is √(R S_xx) / (n S_xy) × √(g / (g − 2)). R, S_xx and S_xy are exact. Each root and quotient is rounded once.

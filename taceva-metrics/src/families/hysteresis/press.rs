@@ -87,7 +87,7 @@ fn common_grid(load: Branch<'_>, unload: Branch<'_>) -> Result<Vec<f64>, Undefin
 
 /// A range of depths within which both branches are straight.
 struct Stretch {
-    /// Length of the range.
+    /// Length of the range of depths, mm.
     width: Dyadic,
     /// Force of loading at both ends of the range, multiplied by `load_scale`.
     load: [Dyadic; 2],

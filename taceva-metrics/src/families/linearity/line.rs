@@ -95,7 +95,7 @@ impl Merge for LineSums {
 pub(super) struct Line {
     /// Slope b = (n Σ x y − Σ x Σ y) / (n Σ x² − (Σ x)²) over n truths x and predictions y.
     pub(super) slope: f64,
-    /// Offset a = (Σ y Σ x² − Σ x Σ x y) / (n Σ x² − (Σ x)²) over n truths x and predictions y, in the unit of the channel.
+    /// Offset a = (Σ y Σ x² − Σ x Σ x y) / (n Σ x² − (Σ x)²) over n truths x and predictions y.
     pub(super) offset: f64,
 }
 
