@@ -1,4 +1,4 @@
-//! Mean error by level of the truth.
+//! Mean error in each level of the truth. Levels are ranges of equal width.
 
 mod window;
 
@@ -22,7 +22,7 @@ use crate::score::value::{Finished, InapplicableReason, UndefinedReason, Value};
 use crate::score::{Count, Parameter, Variant};
 use window::Window;
 
-/// Least number of samples of a level whose mean error enters the score.
+/// Least number of samples in a level. Levels with fewer samples do not enter the score.
 const LEAST_SAMPLES: u64 = 5;
 
 pub(crate) static BIAS_LEVEL: Metric = Metric {
@@ -56,7 +56,7 @@ fn width_and_least(unit: Unit) -> Vec<Parameter> {
     width.into_iter().chain([least]).collect()
 }
 
-/// Family of errors by level of the truth.
+/// Family of metrics computed from the errors in each level of the truth.
 pub(crate) static KIND: FamilyKind = FamilyKind {
     clusters_of_plan: true,
     is_whole: true,
@@ -65,23 +65,23 @@ pub(crate) static KIND: FamilyKind = FamilyKind {
     })
 };
 
-/// Errors by level of the truth.
+/// Adds errors to the level of their truth.
 #[derive(Default)]
 pub(crate) struct Levels {
     window: Window,
     gathered: Gathered,
 }
 
-/// Sums of one channel.
+/// Sums of the errors of one channel, by level of the truth.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct LevelSums {
     n: u64,
     n_invalid: u64,
-    /// Errors by ⌊truth / width⌋, with truth and width in millionths.
+    /// Errors of each level, by its number ⌊truth / width⌋. Truth and width are in millionths of the channel's unit.
     levels: SortedMap<i64, LevelErrors>,
 }
 
-/// Count and exact sum of the residuals at one level.
+/// Number and exact sum of the errors in one level.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct LevelErrors {
     n: u64,
@@ -94,13 +94,13 @@ impl LevelErrors {
         self.errors.add(error);
     }
 
-    /// Mean residual, rounded once.
+    /// Mean error over the samples of the level, rounded once.
     fn mean(&self) -> f64 {
         self.errors.to_dyadic().over(&Dyadic::from(self.n))
     }
 }
 
-/// Greatest magnitude of the mean residual over the levels with enough samples.
+/// Greatest magnitude of the mean error, over levels with at least five samples.
 fn greatest_bias(sums: &LevelSums) -> Finished {
     match (sums.n, sums.n_invalid) {
         (0, 0) => return Err(UndefinedReason::Empty),
@@ -117,7 +117,7 @@ fn greatest_bias(sums: &LevelSums) -> Finished {
     })
 }
 
-/// Mean error at the middle of each level.
+/// Curve of mean errors: one point for each level, at the middle of the level.
 fn curve(sums: &LevelSums, unit: Unit, width: i64) -> Curve {
     let middle = |level: &i64| from_millionths(level * width + width / 2);
     Curve {

@@ -14,7 +14,7 @@ use crate::exact::sorted_map::SortedMap;
 pub(crate) struct CellKey {
     point: Option<Arc<str>>,
     step: u32,
-    /// Number of the draw, because a bootstrap replicate may contain a contact point several times; otherwise 0.
+    /// Number of the copy of a contact point, because a bootstrap replicate may contain it several times; otherwise 0.
     copy: u32,
 }
 
@@ -24,7 +24,7 @@ impl CellKey {
         self.step
     }
 
-    /// Key as text in a state: `3:point 7`, or empty without a contact point.
+    /// Key as text for a saved state: depth step and contact point, as in `3:point 7`. Empty without a contact point.
     fn to_text(&self) -> String {
         let point = self.point.as_ref();
         point.map_or_else(String::new, |point| format!("{}:{point}", self.step))
@@ -44,10 +44,9 @@ impl CellKey {
     }
 }
 
-/// Summaries by cell. Copies of one contact point share a summary, so its statistics are computed once.
+/// One summary `V` for each cell of presses. Copies of a contact point share a summary, so its statistics are computed once.
 ///
-/// One row without a contact point merges all cells permanently, because the presses cannot be grouped. The result depends only on
-/// the set of rows.
+/// One row without a contact point merges all cells permanently, because the presses cannot be grouped. The order of rows has no effect.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Cells<V> {
     cells: SortedMap<CellKey, Arc<V>>,
@@ -63,14 +62,14 @@ impl<V> Default for Cells<V> {
     }
 }
 
-/// The cells of the rows of a batch.
+/// Access to the cell of each row of a batch.
 pub(crate) struct BatchCells<'a, V> {
     cells: &'a mut Cells<V>,
     labels: Option<&'a Labels>,
 }
 
 impl<V: Merge + Clone + Default> BatchCells<'_, V> {
-    /// Mutable summary of the cell of `row`.
+    /// Mutable summary of the cell of `row` at depth step `step`.
     pub(crate) fn at(&mut self, row: usize, step: u32) -> &mut V {
         let point = self.labels.and_then(|labels| labels.get(row));
         self.cells.at(point, step)
@@ -78,12 +77,12 @@ impl<V: Merge + Clone + Default> BatchCells<'_, V> {
 }
 
 impl<V: Merge + Clone + Default> Cells<V> {
-    /// Cells for the rows of `batch`. A batch without contact points merges all cells, even if only some of its rows are used.
+    /// Access to the cells of `batch`. A batch without contact points merges all cells, even if few of its rows are added.
     pub(crate) fn of_batch<'a>(&'a mut self, batch: &'a Batch) -> BatchCells<'a, V> {
         self.of_labels(batch.points(), batch.rows())
     }
 
-    /// Cells for `rows` rows with contact points in `labels`. Rows without labels merge all cells.
+    /// Access to the cells of `rows` rows. `labels` has the contact point of each row; `None` merges all cells.
     pub(crate) fn of_labels<'a>(
         &'a mut self,
         labels: Option<&'a Labels>,
@@ -113,7 +112,7 @@ impl<V: Merge + Clone + Default> Cells<V> {
         self.cells.len()
     }
 
-    /// Mutable summary of a cell.
+    /// Mutable summary of the cell of `point` at depth step `step`. `None` merges all cells.
     fn at(&mut self, point: Option<&str>, step: u32) -> &mut V {
         let key = match point {
             Some(point) if self.named => CellKey {
@@ -161,13 +160,13 @@ impl<V: Merge + Clone + Default> Cells<V> {
         }
     }
 
-    /// Cells as records by key, for [`Record::cells`].
+    /// Converts each cell to a record, by the text of its key.
     pub(crate) fn to_records(&self, to_record: impl Fn(&V) -> Record) -> BTreeMap<String, Record> {
         let cells = self.cells.iter();
         keyed(cells.map(|(key, cell)| (key.to_text(), to_record(cell))))
     }
 
-    /// Reads the cells of a record. The keys of the cells must have contact points exactly if `named`.
+    /// Reads the cells of a record. Every key must have a contact point if `named`, and none otherwise.
     pub(crate) fn from_record(
         record: &Record,
         named: bool,
@@ -202,7 +201,7 @@ impl<V: Merge + Clone + Default> Merge for Cells<V> {
     }
 }
 
-/// Adds `other` `times` times.
+/// Adds `other` × `times` to `count`, limited to the greatest `u64`.
 pub(crate) fn add_times(count: &mut u64, other: u64, times: u32) {
     *count = count.saturating_add(other.saturating_mul(u64::from(times)));
 }

@@ -1,4 +1,4 @@
-//! Interface of families with the same sums for each channel.
+//! Interface of metric families that keep the same sums for each channel.
 
 use std::collections::BTreeMap;
 
@@ -13,12 +13,12 @@ use crate::families::accuracy::outputs;
 use crate::pair::Paired;
 use crate::score::value::InapplicableReason;
 
-/// Sums of one channel, and the scores computed from them.
+/// Metric family that keeps separate sums for each channel.
 pub(crate) trait Channelwise: Send + 'static {
-    /// Sums of one channel; the default is empty.
+    /// Sums of one channel. The default value has no samples.
     type Sums: Merge + Clone + Default + Send + 'static;
 
-    /// Parameters that must be equal in merged states.
+    /// Parameters by name. States with different parameters cannot be merged.
     fn parameters(&self) -> BTreeMap<String, String> {
         BTreeMap::new()
     }
@@ -34,21 +34,21 @@ pub(crate) trait Channelwise: Send + 'static {
         position: usize,
         rows: Option<&[u32]>,
     );
-    /// Converts sums to the record of a state.
+    /// Converts the sums to a record for a saved state.
     fn to_record(&self, sums: &Self::Sums) -> Record;
-    /// Reads the sums from the record of a state.
+    /// Reads the sums from a record of a saved state.
     fn read_record(&self, record: &Record) -> Result<Self::Sums, String>;
-    /// Number of used samples.
+    /// Number of samples in the sums.
     fn count(&self, sums: &Self::Sums) -> u64;
     /// Number of samples skipped for an unusable value.
     fn invalid(&self, sums: &Self::Sums) -> u64;
-    /// Values of `metric`.
+    /// Value and variants of `metric` for one channel.
     fn numbers(&self, metric: &Metric, output: &Output, sums: &Self::Sums) -> Numbers;
-    /// As [`Family::resampled`].
+    /// Value and variants of `metric` for a resample, as in [`Family::resampled`].
     fn resampled(&self, metric: &Metric, output: &Output, sums: &Self::Sums) -> Numbers {
         self.numbers(metric, output, sums)
     }
-    /// As [`Family::intervals`], with the sums of the clusters for each part of the output.
+    /// Intervals of `metric`, as in [`Family::intervals`]. The last argument has the sums of every cluster, for each channel of the output.
     fn intervals(
         &self,
         _metric: &Metric,
@@ -61,13 +61,13 @@ pub(crate) trait Channelwise: Send + 'static {
     fn inapplicable(&self, _output: &Output) -> Option<InapplicableReason> {
         None
     }
-    /// Details of the score other than its values.
+    /// Parts of a score besides its numbers, such as curves, counts and flags.
     fn details(&self, _metric: &Metric, _output: &Output, _parts: &[&Self::Sums]) -> Details {
         Details::default()
     }
 }
 
-/// Family of a [`Channelwise`] kind, for channels and planes. The score of a plane is the mean over its axes.
+/// Turns a [`Channelwise`] kind into a family of scores for channels and planes. The score of a plane is the mean over its two axes.
 pub(crate) struct ByChannel<K> {
     kind: K,
     positions: Vec<usize>,
@@ -75,7 +75,7 @@ pub(crate) struct ByChannel<K> {
 }
 
 impl<K: Channelwise> ByChannel<K> {
-    /// Family with the channels of `plan` that the kind includes.
+    /// Creates the family for the channels of `plan` that `kind` takes.
     pub(crate) fn new(kind: K, plan: &MetricPlan) -> ByChannel<K> {
         let channels = plan.channels().iter().enumerate();
         let positions: Vec<usize> = channels
@@ -161,7 +161,7 @@ impl<K: Channelwise> Family for ByChannel<K> {
     }
 }
 
-/// Calls `add` with the row and the pair of every sample of `rows` with both values.
+/// Calls `add` with the row and the pair of channel `position`, for each of `rows` that has prediction and truth.
 pub(crate) fn each_pair(
     batch: &Batch,
     position: usize,

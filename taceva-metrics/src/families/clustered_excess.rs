@@ -1,17 +1,17 @@
-//! Variant for the excess spread of bins, if the contact points of the samples are known.
+//! Variants for the spread of bin means beyond chance, computed from known clusters.
 
 use crate::evaluate::family::Intervals;
 use crate::score::Interval;
 use crate::score::value::UndefinedReason;
 use crate::stats::components::Excess;
 
-/// Value of a variant with its interval ends.
+/// Value of a variant, and both ends of its interval.
 pub(crate) struct WithEnds {
     pub(crate) value: f64,
     pub(crate) ends: [f64; 2],
 }
 
-/// The variant `name` with its value and its interval from `clusters` clusters. `finish` computes both from the mean of `all`.
+/// Value and interval of the variant `name`. `finish` computes both from the mean of `all`, whose samples form `clusters` clusters.
 pub(crate) fn of_mean(
     name: &str,
     all: Result<Vec<Excess>, UndefinedReason>,

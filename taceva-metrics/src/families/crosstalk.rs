@@ -41,16 +41,16 @@ pub(crate) static CROSSTALK: Metric = Metric {
     ..Metric::of(&KIND)
 };
 
-/// Family of the joint fit of all channels.
+/// Family of metrics computed from one regression of all predictions on all truths.
 pub(crate) static KIND: FamilyKind = FamilyKind {
     clusters_of_plan: true,
     is_whole: true,
     ..FamilyKind::new("taceva.joint/2", |plan| erased(Crosstalk::for_plan(plan)))
 };
 
-/// Joint fit of all channels of a contact.
+/// Joint regression of the predictions of up to six contact channels on their truths.
 pub(crate) struct Crosstalk {
-    /// Indices of the six contact channels in the plan, as far as the plan has them.
+    /// Indices in the plan of those of the six contact channels that it has.
     positions: Vec<usize>,
     names: Vec<String>,
     adder: ColumnAdder,
@@ -58,7 +58,7 @@ pub(crate) struct Crosstalk {
 }
 
 impl Crosstalk {
-    /// The family for `plan`.
+    /// Creates the family for the channels of `plan`.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Crosstalk {
         let channels = plan.channels().iter().enumerate();
         let six = channels.filter(|(_, channel)| Channel::SIX.contains(channel));

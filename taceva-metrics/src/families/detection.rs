@@ -58,7 +58,7 @@ pub(crate) static DETECTION_LIMIT: Metric = Metric {
     ..Metric::of(&KIND)
 };
 
-/// Family of light presses.
+/// Family of metrics computed from light presses, with a true force of 0.02 N to 0.2 N.
 pub(crate) static KIND: FamilyKind = FamilyKind::new("taceva.light-presses/1", |plan| {
     erased(ByChannel::new(LightPresses, plan))
 });
@@ -68,7 +68,7 @@ fn constants(_: Unit) -> Vec<Parameter> {
     vec![constant("gate", GATE_N), constant("light", LIGHT_N)]
 }
 
-/// Predicted over true force of light presses.
+/// Collects predicted and true forces of light presses.
 pub(crate) struct LightPresses;
 
 impl Channelwise for LightPresses {

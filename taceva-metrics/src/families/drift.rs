@@ -38,12 +38,12 @@ pub(crate) static DRIFT: Metric = Metric {
     ..Metric::of(&KIND)
 };
 
-/// Family of errors over time.
+/// Family of metrics computed from errors over time.
 pub(crate) static KIND: FamilyKind = FamilyKind::new("taceva.drifts/1", |plan| {
     erased(ByChannel::new(Drifts, plan))
 });
 
-/// Errors over time.
+/// Collects errors and their times.
 pub(crate) struct Drifts;
 
 /// Sums of one channel, with the time t in s and the residual d.
@@ -51,7 +51,7 @@ pub(crate) struct Drifts;
 pub(crate) struct DriftSums {
     n: u64,
     n_invalid: u64,
-    /// Σ t, Σ d, Σ t², Σ t d.
+    /// Σ t, Σ d, Σ t² and Σ t d over samples, with the time t in s and the residual d.
     sums: [ExactSum; 4],
 }
 

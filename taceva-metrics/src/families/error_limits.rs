@@ -1,4 +1,4 @@
-//! Family of limits that contain a share of all errors, from the errors of each cluster.
+//! Metrics of limits between which a share of all errors lies, such as limits of agreement.
 
 mod errors;
 mod intervals;
@@ -25,18 +25,18 @@ use sums::{ErrorSums, Totals};
 /// Least number of samples for a standard deviation.
 const LEAST_SAMPLES: u64 = 2;
 
-/// Needs of the scores of this family.
+/// Fields that metrics of error limits need: truth and prediction, for at least two samples.
 pub(crate) const LIMIT_NEEDS: Needs =
     Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
         .with_least_samples(LEAST_SAMPLES);
 
-/// Formula of a metric of this family.
+/// Formula of a metric of error limits.
 pub(crate) struct LimitFormula {
-    /// Computation of the numbers, in the unit of the channel.
+    /// Computes value and variants from the errors of one channel, whose unit is given.
     pub(crate) finish: fn(&Errors<'_>, Unit) -> Numbers,
-    /// Factor of the standard deviation in the numbers, which is the same for other selections of clusters.
+    /// Computes the factor of the standard deviation from all clusters. Resamples of clusters use the same factor.
     pub(crate) factor: fn(&NormalSample) -> Option<f64>,
-    /// Replacement of jackknife intervals by more accurate intervals.
+    /// Replaces jackknife intervals if the metric has more accurate intervals.
     pub(crate) settle: fn(&mut Intervals, &Whole<'_>),
 }
 
@@ -44,7 +44,7 @@ fn formula(metric: &Metric) -> Option<&'static LimitFormula> {
     metric.formula.get()
 }
 
-/// Family of the errors of clusters.
+/// Family of metrics computed from the errors of each cluster of samples.
 pub(crate) static ERROR_LIMITS: FamilyKind = FamilyKind {
     clusters_of_plan: true,
     own_intervals: true,
@@ -53,15 +53,15 @@ pub(crate) static ERROR_LIMITS: FamilyKind = FamilyKind {
     })
 };
 
-/// Errors by cluster.
+/// Collects errors by cluster of samples.
 pub(crate) struct ErrorLimits {
     clustered_by: ClusteredBy,
-    /// Columns by index of the channel, because channels differ in magnitude.
+    /// Means and differences of pairs for each channel index, because channels differ in magnitude.
     columns: Vec<PairColumns>,
 }
 
 impl ErrorLimits {
-    /// Sums for the clusters of `plan`.
+    /// Creates the family with the clusters of `plan`.
     pub(crate) fn for_plan(plan: &MetricPlan) -> ErrorLimits {
         ErrorLimits {
             clustered_by: plan.clustered_by(),

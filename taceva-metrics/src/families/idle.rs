@@ -18,21 +18,21 @@ pub(crate) const GATE_N: f64 = 0.02;
 /// Least number of samples without contact for a score.
 pub(crate) const LEAST_SAMPLES: u64 = 10;
 
-/// Needs of the scores of this family.
+/// Fields that metrics without contact need: truth and prediction with the channel `Fz`, for at least ten samples.
 pub(crate) const IDLE_NEEDS: Needs =
     Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
         .with_channels(&["Fz"])
         .with_least_samples(LEAST_SAMPLES);
 
-/// Formula of a metric of this family.
+/// Computes value and variants of a metric from the predictions without contact.
 pub(crate) struct IdleFormula(pub(crate) fn(&Moments, Unit) -> Numbers);
 
-/// Family of predictions without contact.
+/// Family of metrics computed from predictions without contact.
 pub(crate) static IDLE: FamilyKind = FamilyKind::new("taceva.idle/1", |plan| {
     erased(ByChannel::new(Idle::for_plan(plan)?, plan))
 });
 
-/// Predicted forces without contact.
+/// Collects predicted forces of samples without contact.
 pub(crate) struct Idle {
     normal_force: usize,
     gathered: Gathered,
@@ -46,7 +46,7 @@ pub(crate) struct IdleSums {
 }
 
 impl Idle {
-    /// Family for `plan`; `None` if the plan has no normal force.
+    /// Creates the family for `plan`; `None` if the plan lacks `Fz`.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Idle> {
         let normal_force = plan.channels().position("Fz")?;
         Some(Idle {
@@ -56,7 +56,7 @@ impl Idle {
     }
 }
 
-/// Rejects too few samples for a score.
+/// Returns an error if there are fewer than ten samples without contact.
 pub(crate) fn enough(predictions: &Moments) -> Result<(), UndefinedReason> {
     match predictions.n {
         0 => Err(UndefinedReason::NoIdleSamples),

@@ -43,18 +43,18 @@ pub(crate) static INTER_SENSOR: Metric = Metric {
     ..Metric::of(&KIND)
 };
 
-/// Family of the surfaces of units.
+/// Family of metrics that compare the surfaces of units of one sensor model.
 pub(crate) static KIND: FamilyKind = FamilyKind::new("taceva.clouds/1", |plan| {
     erased(InterSensor::for_plan(plan)?)
 });
 
-/// The surfaces of units.
+/// Collects surface points of each unit of a sensor model.
 pub(crate) struct InterSensor {
     axes: [usize; 3],
 }
 
 impl InterSensor {
-    /// The family for `plan`; `None` if a channel is missing.
+    /// Creates the family for `plan`; `None` if the plan lacks `Px`, `Py` or `surface_z`.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Option<InterSensor> {
         let position = |name| plan.channels().position(name);
         Some(InterSensor {

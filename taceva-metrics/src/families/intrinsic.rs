@@ -39,7 +39,7 @@ pub(crate) static INTRINSIC: Metric = Metric {
     ..Metric::of(&KIND)
 };
 
-/// Optional fields, read if samples have them.
+/// Fields that the metric reads if samples have them.
 pub(crate) const OPTIONAL_FIELDS: FieldSet = FieldSet::EMPTY
     .with(Field::Truth)
     .with(Field::Stamp)
@@ -55,7 +55,7 @@ const PROPERTIES: [(&str, Unit); 6] = [
     ("resolution", Unit::Pixel),
 ];
 
-/// Family of times, digests and places of contact.
+/// Family of metrics computed from times of frames, digests of frames and places of contact.
 pub(crate) static KIND: FamilyKind = FamilyKind {
     optional: OPTIONAL_FIELDS,
     obstacle: Intrinsic::obstacle,
@@ -64,17 +64,17 @@ pub(crate) static KIND: FamilyKind = FamilyKind {
     })
 };
 
-/// Times, digests and places of contact.
+/// Collects times of frames, digests of frames and places of contact.
 pub(crate) struct Intrinsic {
     place: Option<[usize; 2]>,
     contact: Option<Contact>,
     frame_size: Option<[u32; 2]>,
 }
 
-/// Criterion of contact.
+/// Criterion by which a sample counts as in contact.
 #[derive(Clone, Copy, Debug)]
 enum Contact {
-    /// Normal force of at least the threshold, in the channel at this index.
+    /// |Fz| of at least 0.02 N, in the channel at this index.
     Force(usize),
     /// Positive indentation, in the channel at this index.
     Depth(usize),
@@ -93,7 +93,7 @@ impl Contact {
 }
 
 impl Intrinsic {
-    /// The family for `plan`.
+    /// Creates the family for `plan`.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Intrinsic {
         let position = |name| plan.channels().position(name);
         let place = position("Px").zip(position("Py"));
@@ -105,7 +105,7 @@ impl Intrinsic {
         }
     }
 
-    /// Missing field of `plan`, if its samples determine no property.
+    /// Reason to skip the family: samples have neither times nor true places, and the frame size is unknown. `None` otherwise.
     pub(crate) fn obstacle(plan: &MetricPlan) -> Option<SkipReason> {
         let named = |name| plan.channels().position(name).is_some();
         let places = plan.carries(Field::Truth) && named("Px") && named("Py");
@@ -120,7 +120,7 @@ impl Intrinsic {
         Some([batch.truth(x).get(row)?, batch.truth(y).get(row)?])
     }
 
-    /// Number of pixels: width times height.
+    /// Number of pixels of a frame: width times height.
     fn resolution(&self) -> Finished {
         let [width, height] = self
             .frame_size

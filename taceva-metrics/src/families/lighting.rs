@@ -22,11 +22,11 @@ use crate::score::Variant;
 use crate::score::value::Value;
 use sums::LightingSums;
 
-/// Family of errors and brightness by scene.
+/// Family of metrics computed from error and brightness in each lighting scene.
 pub(crate) static KIND: FamilyKind =
     FamilyKind::new("taceva.lighting/1", |plan| erased(Lighting::for_plan(plan)));
 
-/// Sums of the errors of each channel and of the brightness, by scene.
+/// Collects the errors of each channel and the brightness of the pictures, by lighting scene.
 pub(crate) struct Lighting {
     reference: String,
     channels: usize,
@@ -34,7 +34,7 @@ pub(crate) struct Lighting {
 }
 
 impl Lighting {
-    /// The family for `plan`.
+    /// Creates the family for `plan`.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Lighting {
         Lighting {
             reference: plan.facts().reference_scene.clone(),
@@ -110,7 +110,7 @@ impl Family for Lighting {
         }
     }
 
-    /// Intervals of one channel, by the delta method. The mean of two channels has its own jackknife, because their errors are correlated.
+    /// Intervals of one channel, by the delta method. `None` for a plane: its errors are correlated, so their mean has its own jackknife.
     fn intervals(
         &self,
         _metric: &Metric,

@@ -1,4 +1,4 @@
-//! Deviation of predictions from the straight line through predictions over truth.
+//! Greatest deviation of predictions from their least-squares line over the truth.
 
 mod line;
 
@@ -35,7 +35,7 @@ pub(crate) static LINEARITY: Metric = Metric {
     ..Metric::of(&KIND)
 };
 
-/// Family of lines of predictions over truth.
+/// Family of metrics computed from the line of predictions over truth.
 pub(crate) static KIND: FamilyKind = FamilyKind {
     clusters_of_plan: true,
     ..FamilyKind::new("taceva.lines/1", |plan| {
@@ -43,10 +43,10 @@ pub(crate) static KIND: FamilyKind = FamilyKind {
     })
 };
 
-/// Predictions over truth.
+/// Collects predictions and truths, by channel.
 #[derive(Default)]
 pub(crate) struct Lines {
-    /// Adders by index of the channel, because channels differ in magnitude.
+    /// One column adder for each channel index, because channels differ in magnitude.
     adders: Vec<ColumnAdder>,
     gathered: Gathered,
 }
@@ -100,7 +100,7 @@ impl Channelwise for Lines {
     }
 }
 
-/// Adds the scalar variants of the line, which have intervals, to `numbers`.
+/// Adds slope and offset of the line, which have intervals, to `numbers`.
 fn with_line(numbers: Numbers, output: &Output, sums: &LineSums) -> Numbers {
     let line = Line::through(sums);
     numbers

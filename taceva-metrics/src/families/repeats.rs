@@ -1,4 +1,4 @@
-//! Family of scores computed from the repeats of each press.
+//! Metrics computed from repeated presses at the same contact point and depth.
 
 pub(crate) mod spread;
 
@@ -20,12 +20,12 @@ use crate::score::value::{UndefinedReason, Value};
 use crate::score::{Count, Variant};
 use spread::{Cell, SpreadSums, mean};
 
-/// Family of the repeats of each press.
+/// Family of metrics computed from repeated presses.
 pub(crate) static REPEATS: FamilyKind = FamilyKind::new("taceva.repeats/1", |plan| {
     erased(ByChannel::new(Repeats, plan))
 });
 
-/// Needs of the scores of this family.
+/// Fields that metrics of repeated presses need, for at least two samples.
 pub(crate) const REPEAT_NEEDS: Needs = Needs::new(
     FieldSet::EMPTY
         .with(Field::Prediction)
@@ -35,13 +35,13 @@ pub(crate) const REPEAT_NEEDS: Needs = Needs::new(
 )
 .with_least_samples(2);
 
-/// Formula of a metric of this family.
+/// Formula of a metric of repeated presses.
 pub(crate) struct RepeatFormula {
-    /// Computation of the numbers, in the unit of the channel.
+    /// Computes value and variants from the spreads of one channel, whose unit is given.
     pub(crate) finish: fn(&SpreadSums, Unit) -> Numbers,
     /// True if the score includes the mean spread at each depth step.
     pub(crate) has_curve: bool,
-    /// True if the score gets a flag for labels that hardly differ.
+    /// True if the score gets a flag when labels vary less than repeated predictions.
     pub(crate) needs_stimulus: bool,
 }
 
@@ -49,21 +49,21 @@ fn formula(metric: &Metric) -> Option<&'static RepeatFormula> {
     metric.formula.get()
 }
 
-/// Predictions by contact point and depth step.
+/// Collects predictions by contact point and depth step.
 struct Repeats;
 
-/// Sums of one channel.
+/// Predictions of one channel by contact point and depth step, and sums of its labels.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct RepeatSums {
     n: u64,
     n_invalid: u64,
     cells: Cells<Cell>,
-    /// Labels of the same repeats, if present. The standard deviation of the labels measures the stimulus.
+    /// Count and sums of the labels of these presses, if they have labels. The standard deviation of the labels measures the stimulus.
     truth: Moments,
 }
 
 impl RepeatSums {
-    /// True if the standard deviation of labels is below the pooled spread of repeats. Differences of predictions are then noise.
+    /// True if the standard deviation of labels is below the pooled spread of repeated predictions. Differences of predictions are then noise.
     fn is_low_stimulus(&self) -> bool {
         let stimulus = self.truth.deviation(1);
         let spread = SpreadSums::of(&self.cells).pooled().ok();
@@ -197,7 +197,7 @@ impl Channelwise for Repeats {
     }
 }
 
-/// Mean spread at each depth step; for two channels the mean of both.
+/// Curve of the mean spread of repeated predictions, over the contact points of each depth step. A plane has the mean of both channels.
 fn depth_curve(parts: &[&RepeatSums]) -> Value {
     let mut steps: SortedMap<u32, (ExactSum, u64)> = SortedMap::default();
     for part in parts {
@@ -225,7 +225,7 @@ fn depth_curve(parts: &[&RepeatSums]) -> Value {
     })
 }
 
-/// Depth step from its number `step`; `None` if it is not a whole number from 0 to 2³² − 1.
+/// Converts a depth step to an integer; `None` if `step` is not a whole number from 0 to 2³² − 1.
 fn whole_step(step: f64) -> Option<u32> {
     let whole = (0.0..=f64::from(u32::MAX)).contains(&step) && step.fract().abs() <= 0.0;
     #[expect(

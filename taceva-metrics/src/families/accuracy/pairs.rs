@@ -1,4 +1,4 @@
-//! Family of scores computed from the sums of each channel's pairs.
+//! Family of metrics computed from sums over pairs of prediction and truth, channel by channel.
 
 use std::collections::BTreeMap;
 
@@ -18,33 +18,33 @@ use crate::families::row_columns::Gathered;
 use crate::pair::{EPSILON, Paired};
 use crate::score::value::{Finished, InapplicableReason, UndefinedReason};
 
-/// Family of the pairs of each channel.
+/// Family of metrics computed from pairs of prediction and truth.
 pub(crate) static PAIRS: FamilyKind = FamilyKind {
     clusters_of_plan: true,
     ..FamilyKind::new("taceva.pairs/1", |plan| erased(Pairs::for_plan(plan)))
 };
 
-/// Needs of every score of pairs.
+/// Fields that every metric of pairs needs: truth and prediction, for at least one sample.
 pub(crate) const PAIR_NEEDS: Needs =
     Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction)).with_least_samples(1);
 
-/// Formula of a metric of this family.
+/// Formula of a metric of pairs.
 pub(crate) struct PairFormula {
-    /// Required sums.
+    /// Sums over pairs that the formula reads.
     pub(crate) streams: Streams,
-    /// True if the metric uses only samples that reach the gate.
+    /// True if the metric uses only samples with |truth| of at least the gate of the channel.
     pub(crate) gated: bool,
     /// Number of samples that the metric uses.
     pub(crate) count: fn(&PairSums) -> u64,
-    /// Computation of the value.
+    /// Computes the value from the sums.
     pub(crate) finish: PairFinish,
 }
 
 /// Formula that computes a value from sums of pairs.
 pub(crate) enum PairFinish {
-    /// Value of one channel with at least one pair. The value of a plane is the mean over its axes.
+    /// Value of one channel with at least one pair. A plane, such as `Pxy`, gets the mean of its two axes.
     Channel(fn(&PairSums) -> Finished),
-    /// Joint value of all axes, with the constants of the model.
+    /// Value computed from all axes together, each with the constant prediction to compare with.
     Axes {
         value: fn(&[Axis<'_>]) -> Finished,
         details: fn(&[Axis<'_>], &Output) -> Details,
@@ -55,11 +55,11 @@ pub(crate) enum PairFinish {
 #[derive(Clone, Copy)]
 pub(crate) struct Axis<'a> {
     pub(crate) sums: &'a PairSums,
-    /// Mean of the training labels; `None` to use the mean of truth.
+    /// Constant prediction: the mean of the training labels, or `None` for the mean of the truth.
     pub(crate) constant: Option<f64>,
 }
 
-/// Sums of the pairs of each channel.
+/// Sums over pairs of prediction and truth, by channel.
 struct Pairs {
     streams: Streams,
     gated: bool,
@@ -110,7 +110,7 @@ pub(crate) fn value_of(metric: &Metric, sums: &PairSums) -> Finished {
     }
 }
 
-/// Outputs of all channels, then of all planes as means over their axes.
+/// Outputs to score: each channel, then each plane of two channels.
 pub(crate) fn outputs(channels: &Channels) -> Vec<Output> {
     let single = channels
         .iter()

@@ -18,12 +18,12 @@ pub(crate) struct PlaneAxes {
     label: &'static str,
     names: [&'static str; 2],
     unit: Unit,
-    /// Indices of the axes among the channels.
+    /// Index of each axis in the list of channels.
     pub(crate) axes: [usize; 2],
 }
 
 impl PlaneAxes {
-    /// Output of the plane, computed from the sums of part 0.
+    /// Output of the plane, with its sums at index 0.
     pub(crate) fn output(&self) -> Output {
         Output {
             label: self.label.to_owned(),
@@ -46,7 +46,7 @@ pub fn plane_axes(name: &str) -> Option<[&'static str; 2]> {
     planes.find_map(|(plane, axes, _)| (plane == name).then_some(axes))
 }
 
-/// Plane with the axis `channel`; `None` if no plane has it.
+/// Name of the plane that has the axis `channel`; `None` if no plane has it.
 pub fn plane_of(channel: &str) -> Option<&'static str> {
     let mut planes = PLANES.into_iter();
     planes.find_map(|(plane, axes, _)| axes.contains(&channel).then_some(plane))
@@ -65,10 +65,10 @@ pub(crate) fn planes(channels: &Channels) -> Vec<PlaneAxes> {
     spanned.collect()
 }
 
-/// Formula of a metric of this family.
+/// Computes the value of a metric from the distances in one plane.
 pub(crate) struct PlaneFormula(pub(crate) fn(&PlaneSums) -> Finished);
 
-/// Family of distances in planes of two channels.
+/// Family of metrics computed from the distance between prediction and truth in a plane.
 pub(crate) static PLANE: FamilyKind = FamilyKind {
     clusters_of_plan: true,
     obstacle: Plane::obstacle,
@@ -81,14 +81,14 @@ pub(crate) static PLANE: FamilyKind = FamilyKind {
 pub(crate) struct Plane {
     planes: Vec<PlaneAxes>,
     outputs: Vec<Output>,
-    /// Adders by plane, because planes differ in magnitude.
+    /// One column adder for each plane, because the values of planes differ in magnitude.
     adders: Vec<ColumnAdder>,
     gathered: Gathered,
     distances: Vec<f64>,
 }
 
 impl Plane {
-    /// Planes of `channels`; `None` if no plane has both axes.
+    /// Family for the planes of `channels`; `None` if no plane has both axes in `channels`.
     fn for_channels(channels: &Channels) -> Option<Plane> {
         let planes = planes(channels);
         if planes.is_empty() {
@@ -110,7 +110,7 @@ impl Plane {
 }
 
 impl Plane {
-    /// Missing axis of the first plane with one axis, else the first axis of the first plane; `None` if a plane has both axes.
+    /// Name of an axis that `channels` lack; `None` if they have both axes of a plane. A plane with one axis in `channels` comes first.
     fn missing_axis(channels: &Channels) -> Option<&'static str> {
         if !planes(channels).is_empty() {
             return None;
@@ -125,7 +125,7 @@ impl Plane {
 }
 
 impl Plane {
-    /// Reason for a missing value: the axis that the channels of `plan` lack.
+    /// Reason to skip the family: the plan lacks an axis of every plane. `None` if a plane has both axes.
     fn obstacle(plan: &MetricPlan) -> Option<SkipReason> {
         let axis = Plane::missing_axis(plan.channels())?;
         Some(SkipReason::ChannelAbsent(axis.to_owned()))

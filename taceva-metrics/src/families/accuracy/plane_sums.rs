@@ -4,7 +4,7 @@ use crate::exact::merge::Merge;
 use crate::exact::{ColumnSums, ExactSum};
 use crate::pair::Paired;
 
-/// Count and exact sum of Euclidean distances.
+/// Number of samples, and exact sum of their distances between estimate and reference.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct PlaneSums {
     pub(crate) n: u64,
@@ -13,7 +13,7 @@ pub(crate) struct PlaneSums {
 }
 
 impl PlaneSums {
-    /// Adds one sample with its pairs along x and y. A sample with an unusable value is counted and skipped.
+    /// Adds one sample, given its pairs along x and y. A sample with an invalid value only raises the count of skipped samples.
     pub(crate) fn add(&mut self, x: Paired<f64>, y: Paired<f64>) {
         match PlaneSums::distance_of(x, y) {
             Some(distance) => {
@@ -24,7 +24,7 @@ impl PlaneSums {
         }
     }
 
-    /// Distance between estimate and reference; `None` if a value is unusable.
+    /// Distance between estimate and reference; `None` if a value is not finite or too large.
     #[inline]
     pub(crate) fn distance_of(x: Paired<f64>, y: Paired<f64>) -> Option<f64> {
         let is_usable = x.is_valid() && y.is_valid();
@@ -47,7 +47,7 @@ impl PlaneSums {
     }
 }
 
-/// Sums of a single column, the distances.
+/// Adds up a single column, the distances.
 impl ColumnSums for PlaneSums {
     fn sums(&mut self) -> [&mut [ExactSum]; 2] {
         [std::slice::from_mut(&mut self.distance), &mut []]
@@ -76,13 +76,13 @@ impl Merge for PlaneSums {
 /// Unlike the `hypot` of a platform, this function returns the same bits on every platform.
 #[inline]
 fn hypotenuse(x: f64, y: f64) -> f64 {
-    /// 2⁶⁰⁰, the factor for small numbers.
+    /// 2⁶⁰⁰: factor that scales small numbers up.
     const UP: f64 = f64::from_bits((1023 + 600) << 52);
-    /// 2⁻⁶⁰⁰, the factor for large numbers.
+    /// 2⁻⁶⁰⁰: factor that scales large numbers down.
     const DOWN: f64 = f64::from_bits((1023 - 600) << 52);
     /// 2⁵¹⁰: up to this magnitude the sum of two squares is finite.
     const LARGE: f64 = f64::from_bits((1023 + 510) << 52);
-    /// 2⁻⁴⁵⁰: from this magnitude on, an underflowing square is negligible.
+    /// 2⁻⁴⁵⁰: if the greater number has this magnitude, a square that underflows is negligible.
     const SMALL: f64 = f64::from_bits((1023 - 450) << 52);
     let root = |x: f64, y: f64| (x * x + y * y).sqrt();
     let greatest = x.abs().max(y.abs());

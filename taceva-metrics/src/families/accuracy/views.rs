@@ -1,4 +1,4 @@
-//! Views of `ndarray` as columns of pairs.
+//! Sums of pairs read from two views of `ndarray`.
 
 use ndarray::ArrayView1;
 
@@ -7,16 +7,16 @@ use crate::evaluate::number::Number;
 use crate::families::accuracy::pair_sums::PairSums;
 use crate::pair::Paired;
 
-/// Number of pairs per block gathered from views that are not contiguous or not binary64.
+/// Number of pairs copied at a time from views that are not contiguous or not `f64`.
 const BLOCK: usize = 1024;
 
 impl PairSums {
-    /// Adds the pairs of two views of `f32` or `f64`, as [`update`](PairSums::update) does. Contiguous views of `f64` are summed without a
-    /// copy; other views are gathered 1,024 pairs at a time.
+    /// Adds the pairs of two views of `f32` or `f64`, as [`update`](PairSums::update) does. Contiguous views of `f64` are summed without a copy;
+    /// other views are copied 1,024 pairs at a time.
     ///
     /// # Errors
-    /// [`MetricError::Lengths`] if the views differ in length. Nothing is added then. [`MetricError::Absent`] for a missing value in an
-    /// `Option`. Earlier blocks are added then.
+    /// [`MetricError::Lengths`] if the views differ in length; no pair is added. [`MetricError::Absent`] if an `Option` has no value; earlier
+    /// blocks of 1,024 pairs remain added.
     ///
     /// ```
     /// use ndarray::array;

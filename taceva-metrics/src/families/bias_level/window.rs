@@ -1,17 +1,17 @@
-//! Errors of a batch by level, stored in a window of adjacent levels.
+//! Adds the errors of a batch to their levels, with an array for adjacent levels.
 
 use super::{LevelErrors, LevelSums};
 use crate::exact::FixedSum;
 use crate::exact::level::millionths;
 use crate::pair::Paired;
 
-/// Greatest number of levels in the window. A wider range of truth uses a lookup.
+/// Greatest length of the array of adjacent levels. Levels beyond its end are looked up in a map.
 const LEVELS: usize = 1 << 12;
 
 /// Placeholder for a pair without a level.
 const NONE: i64 = i64::MIN;
 
-/// Adjacent levels from the lowest level of a batch on. The memory is reused between batches.
+/// Reused memory for a block of pairs: the level of each pair, and the sums of adjacent levels from the lowest.
 #[derive(Debug, Default)]
 pub(super) struct Window {
     of_rows: Vec<i64>,
@@ -69,7 +69,7 @@ impl Window {
     }
 }
 
-/// ⌊value / width⌋. The widths are constants in this function, because a division by a constant compiles to a multiplication.
+/// ⌊value / width⌋. Common widths are literals here, because a division by a constant compiles to a multiplication.
 #[inline]
 fn floored(value: i64, width: i64) -> i64 {
     match width {
@@ -87,7 +87,7 @@ fn count(rows: usize) -> u64 {
 mod tests {
     use super::*;
 
-    /// Adds the pairs one by one, as levels are defined.
+    /// Reference sums: adds the pairs one by one to the level ⌊truth / width⌋.
     fn one_by_one(pairs: &[[f64; 2]], width: i64) -> LevelSums {
         let mut sums = LevelSums::default();
         for &[reference, estimate] in pairs {

@@ -4,26 +4,28 @@ use super::sums::JointSums;
 use crate::exact::single::exactly;
 use crate::score::value::{Finished, UndefinedReason};
 
-/// Slopes of predictions on truths, as shares of full scale.
+/// Slope of each prediction on each truth, as a share of full scale, the range of a truth.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Leaks {
-    /// Shares by predicted channel, then by true channel; `None` if the true channel does not vary.
+    /// Shares by predicted channel, then by true channel; `None` if the truth of either channel is constant.
     pub(super) shares: Vec<Vec<Option<f64>>>,
-    /// True for slopes of a joint fit, false for slopes on one truth each.
+    /// True if the slopes on all truths were fitted together; false if each slope was fitted alone.
     pub(super) joint: bool,
 }
 
 impl Leaks {
-    /// Fits the predictions y_i = a_i + Σ_j b_ij x_j to the truths x_j, and returns b_ij range_j / range_i, with range the full scale of a truth.
+    /// Slope b_ij of prediction y_i on truth x_j, times range_j / range_i, where range_j is the full scale of x_j.
     ///
-    /// Products of deviations are exact and rounded once. The normal equations are scaled to correlations and solved by Cholesky's
-    /// method, whose error increases with the collinearity of the truths. If there are no more samples than unknowns, the slopes are Σ y_i x_j / Σ x_j²
-    /// of deviations. The same applies if a truth is a linear function of the others up to 10⁻⁸ of its variance.
+    /// The fit is y_i = a_i + Σ_j b_ij x_j. Products of deviations are exact and rounded once. Cholesky's method solves the normal equations,
+    /// scaled to correlations. Its error increases with the collinearity of the truths.
+    ///
+    /// Each slope is fitted alone if there are no more samples than unknowns. The same applies if other truths explain a truth up to 10⁻⁸ of its
+    /// variance. The slope is then Σ y_i x_j / Σ x_j² of deviations from the means.
     ///
     /// # Errors
     /// [`UndefinedReason`] for fewer than three samples, one channel, or no truth that varies.
     pub(super) fn of(sums: &JointSums) -> Result<Leaks, UndefinedReason> {
-        /// Least number of samples for slopes with a spread.
+        /// Least number of samples for a regression.
         const LEAST: u64 = 3;
         let channels = sums.channels();
         match sums.n() {
@@ -69,7 +71,7 @@ impl Leaks {
         })
     }
 
-    /// Greatest magnitude of a share between two different channels.
+    /// Greatest magnitude of a share, over all pairs of different channels.
     pub(super) fn greatest(&self) -> Finished {
         let rows = self.shares.iter().enumerate();
         let leaks = rows.flat_map(|(row, shares)| {
@@ -83,14 +85,14 @@ impl Leaks {
     }
 }
 
-/// Cholesky factor of the correlations of the varying truths.
+/// Cholesky factor of the matrix of correlations between truths. Constant truths are excluded.
 struct Factor {
     /// Lower triangle, row by row.
     rows: Vec<Vec<f64>>,
 }
 
 impl Factor {
-    /// Factor of the truths `varying`; `None` if their effects cannot be separated.
+    /// Factor for the truths with indices `varying`; `None` if other truths explain one of them.
     fn of(sums: &JointSums, varying: &[usize]) -> Option<Factor> {
         /// Least share of a truth's variance that the other truths do not explain.
         const LEAST_OWN: f64 = 1e-8;
@@ -111,7 +113,7 @@ impl Factor {
         Some(Factor { rows })
     }
 
-    /// Joint slopes of one prediction.
+    /// Slopes of the prediction of channel `predicted` on the `varying` truths, fitted together.
     fn slopes(&self, sums: &JointSums, varying: &[usize], predicted: usize) -> Vec<f64> {
         let shared = varying
             .iter()
@@ -143,7 +145,7 @@ fn correlation(sums: &JointSums, left: usize, right: usize) -> f64 {
     product / deviation(sums, left) / deviation(sums, right)
 }
 
-/// Slopes of one prediction on each single truth.
+/// Slopes of the prediction of channel `predicted` on the `varying` truths, each fitted alone.
 fn single_slopes(sums: &JointSums, varying: &[usize], predicted: usize) -> Vec<f64> {
     let slope = |&truth: &usize| {
         let shared = sums.shared_products(predicted, truth);
@@ -152,7 +154,7 @@ fn single_slopes(sums: &JointSums, varying: &[usize], predicted: usize) -> Vec<f
     varying.iter().map(slope).collect()
 }
 
-/// Range of `truth` divided by the range of the truth of `predicted`, rounded once; `None` if the truth of `predicted` does not vary.
+/// Full scale of channel `truth` divided by that of channel `predicted`, rounded once. `None` if the truth of `predicted` is constant.
 fn full_scales(sums: &JointSums, truth: usize, predicted: usize) -> Option<f64> {
     let range = |channel: usize| {
         let [low, high] = sums.range(channel)?;
@@ -168,7 +170,7 @@ mod tests {
     use super::*;
     use crate::exact::ColumnAdder;
 
-    /// Sums of `samples`, each with the truths before the predictions.
+    /// Sums over `samples`. A sample has the truths of all channels, then their predictions.
     fn of_samples(channels: usize, samples: &[Vec<f64>]) -> JointSums {
         let mut sums = JointSums::new(channels);
         let column = |at: usize| samples.iter().map(|sample| sample[at]).collect();

@@ -1,4 +1,4 @@
-//! Joint sums of several channels, with x the truths and y the predictions.
+//! Sums over truths x and predictions y of several channels, and over their products.
 
 use crate::exact::merge::Merge;
 use crate::exact::record::Record;
@@ -11,11 +11,11 @@ pub(crate) struct JointSums {
     channels: usize,
     n: u64,
     n_invalid: u64,
-    /// Σ x_j, then Σ y_i.
+    /// Σ x_j over the truths of each channel j, then Σ y_i over the predictions of each channel i.
     values: Vec<ExactSum>,
-    /// Σ x_k x_j for k ≤ j, row by row, then Σ y_i x_j, row by row of i.
+    /// Σ x_k x_j over the truths of channels k ≤ j, row by row. Then Σ y_i x_j with the prediction y_i, row by row of i.
     products: Vec<ExactSum>,
-    /// Least and greatest x_j.
+    /// Least and greatest truth of each channel; empty without samples.
     ranges: Vec<[f64; 2]>,
 }
 
@@ -69,19 +69,19 @@ impl JointSums {
         self.n_invalid
     }
 
-    /// Range of truth `j`; `None` without samples.
+    /// Least and greatest truth of channel `j`; `None` without samples.
     pub(super) fn range(&self, j: usize) -> Option<[f64; 2]> {
         self.ranges.get(j).copied()
     }
 
-    /// n Σ x_k x_j − Σ x_k Σ x_j, exactly.
+    /// n Σ x_k x_j − Σ x_k Σ x_j over n truths of channels `k` and `j`, exact.
     pub(super) fn truth_products(&self, k: usize, j: usize) -> Dyadic {
         let (k, j) = (k.min(j), k.max(j));
         let row_start = k * self.channels - k * (k + 1) / 2;
         self.centred(&self.products[row_start + j], [k, j])
     }
 
-    /// n Σ y_i x_j − Σ y_i Σ x_j, exactly.
+    /// n Σ y_i x_j − Σ y_i Σ x_j over n predictions of channel `i` and truths of channel `j`, exact.
     pub(super) fn shared_products(&self, i: usize, j: usize) -> Dyadic {
         let truths = self.channels * (self.channels + 1) / 2;
         let products = &self.products[truths + i * self.channels + j];
@@ -93,7 +93,7 @@ impl JointSums {
         &(&Dyadic::from(self.n) * &products.to_dyadic()) - &(&left * &right)
     }
 
-    /// Converts the sums to the record of a state.
+    /// Converts the sums to a record for a saved state.
     pub(super) fn to_record(&self) -> Record {
         Record {
             counts: vec![self.n, self.n_invalid],
@@ -103,7 +103,7 @@ impl JointSums {
         }
     }
 
-    /// Reads the record of a state of `channels` channels.
+    /// Reads the sums of `channels` channels from a record of a saved state.
     pub(super) fn read_record(record: &Record, channels: usize) -> Result<JointSums, String> {
         let mut sums = JointSums::new(channels);
         let expected = sums.values.len() + sums.products.len();

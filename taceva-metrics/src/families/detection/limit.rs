@@ -1,16 +1,16 @@
-//! Line through predicted over true force of light presses, and its detection limit.
+//! Detection limit from the least-squares line of predicted over true force of light presses.
 
 use super::sums::LightSums;
 use crate::exact::Dyadic;
 use crate::score::value::UndefinedReason;
 use crate::stats::noncentral::{critical_factor, detection_factor};
 
-/// Least number of effective independent places for a limit.
+/// Least effective number of places for a limit: n² / Σ nᵢ², with nᵢ of n presses at place i.
 pub(super) const LEAST_PLACES: u64 = 10;
-/// Least number of places for the line with some places left out.
+/// Least effective number of places for a limit, if the jackknife has left out some places.
 const LEAST_LEFT: u64 = 3;
 
-/// Detection limit and its threshold, N of true force.
+/// Detection limit (`value`) and decision threshold (`critical`), N of true force.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limit {
     pub(super) value: f64,
@@ -18,7 +18,7 @@ pub(super) struct Limit {
 }
 
 impl Limit {
-    /// Limit from at least ten places, within the range of their forces.
+    /// Detection limit from at least ten places. The force of the lightest press is its lower bound. A limit above the heaviest press is an error.
     pub(super) fn of(sums: &LightSums) -> Result<Limit, UndefinedReason> {
         let range = sums.line.range.ok_or(UndefinedReason::NoLightPresses)?;
         let limit = Limit::of_line(sums, LEAST_PLACES)?;
@@ -31,15 +31,17 @@ impl Limit {
         })
     }
 
-    /// Limit of the line for another selection of places, at least three.
+    /// Detection limit without bounds, for a resample of at least three places.
     pub(super) fn resampled(sums: &LightSums) -> Result<Limit, UndefinedReason> {
         Limit::of_line(sums, LEAST_LEFT)
     }
 
-    /// Limit of ISO 11843-2 for one prediction per press and g = n² / Σ nᵢ² independent presses, nᵢ of n presses at place i.
+    /// Detection limit by ISO 11843-2, from the line through predicted over true force of n presses.
     ///
-    /// For true forces x and predicted forces y, S_xx = n Σ x² − (Σ x)², S_yy and S_xy alike, and R = S_xx S_yy − S_xy². The residual deviation s
-    /// over the slope b is √(R S_xx) / (n S_xy) × √(g / (g − 2)). R, S_xx and S_xy are exact; each root and quotient is rounded once.
+    /// The nᵢ presses at place i are alike, so the n presses count as g = n² / Σ nᵢ² independent presses. Below `least` of them, no limit is defined.
+    ///
+    /// For true forces x and predicted forces y, S_xx = n Σ x² − (Σ x)². S_yy and S_xy are alike, and R = S_xx S_yy − S_xy². The residual
+    /// deviation s over the slope b is √(R S_xx) / (n S_xy) × √(g / (g − 2)). R, S_xx and S_xy are exact. Each root and quotient is rounded once.
     fn of_line(sums: &LightSums, least: u64) -> Result<Limit, UndefinedReason> {
         if !sums.places.are_named() {
             return Err(UndefinedReason::NoClusters);

@@ -1,4 +1,4 @@
-//! Sums of light presses, and their number at each place.
+//! Sums over light presses, and the number of presses at each place.
 
 use crate::exact::ExactSum;
 use crate::exact::merge::Merge;
@@ -6,7 +6,7 @@ use crate::exact::record::Record;
 use crate::families::cells::{Cells, add_times};
 use crate::pair::Paired;
 
-/// Sums of light presses, and their number at each place.
+/// Sums over light presses, and the number of presses at each place.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct LightSums {
     pub(super) n_invalid: u64,
@@ -18,13 +18,13 @@ pub(crate) struct LightSums {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct LineSums {
     pub(super) n: u64,
-    /// Σ x, Σ y, Σ x², Σ x y, Σ y².
+    /// Σ x, Σ y, Σ x², Σ x y and Σ y² over presses, with true force x and predicted force y, N.
     pub(super) sums: [ExactSum; 5],
-    /// Least and greatest x; `None` without presses.
+    /// Least and greatest true force; `None` without presses.
     pub(super) range: Option<Forces>,
 }
 
-/// Least and greatest true force.
+/// Least and greatest true force of light presses, N.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Forces {
     pub(super) least: f64,
@@ -73,7 +73,7 @@ impl LineSums {
 }
 
 impl LightSums {
-    /// Converts the sums to the record of a state.
+    /// Converts the sums to a record for a saved state.
     pub(super) fn to_record(&self) -> Record {
         let line = &self.line;
         let range = line.range.map(|range| vec![range.least, range.greatest]);
@@ -88,7 +88,7 @@ impl LightSums {
         }
     }
 
-    /// Reads the record of a state.
+    /// Reads the sums from a record of a saved state.
     pub(super) fn read_record(record: &Record) -> Result<LightSums, String> {
         let (&[n, n_invalid, named], sums) = record.with_cells()?;
         let range = match record.values[..] {

@@ -1,4 +1,4 @@
-//! Errors of one channel as a normal sample, and their change with magnitude.
+//! Errors of one channel as a normal sample, and the slope of the errors over the measured magnitude.
 
 use super::sums::Totals;
 use crate::score::value::{Finished, UndefinedReason};
@@ -10,7 +10,7 @@ pub(crate) struct Errors<'a> {
     totals: &'a Totals,
     /// True if the caller declared the samples independent.
     are_declared_independent: bool,
-    /// Tolerance factor of all clusters together, for a selection of clusters.
+    /// Tolerance factor of all clusters together; `None` to compute the factor from these errors.
     factor: Option<f64>,
 }
 
@@ -33,7 +33,9 @@ impl<'a> Errors<'a> {
         self.totals.errors.mean().ok_or(UndefinedReason::Empty)
     }
 
-    /// Errors as a normal sample: of independent errors if no two belong to one cluster or the clusters are unknown, else of clusters.
+    /// Errors as a normal sample, with the clusters as random groups.
+    ///
+    /// Errors count as independent if no two belong to one cluster, if clusters are unknown, or if the caller declared so.
     pub(crate) fn sample(&self) -> Result<NormalSample, UndefinedReason> {
         let errors = &self.totals.errors;
         match errors.n {
@@ -58,7 +60,7 @@ impl<'a> Errors<'a> {
         sample.ok_or(UndefinedReason::Overflow)
     }
 
-    /// Mean ± k standard deviations, with k the given factor or else the factor of the sample.
+    /// Tolerance limits: mean ± k standard deviations of the errors. `factor` computes k unless a factor was given.
     pub(crate) fn tolerance_ends(
         &self,
         factor: fn(&NormalSample) -> Option<f64>,
@@ -75,7 +77,7 @@ impl<'a> Errors<'a> {
 
     /// Slope of the errors over the means of truth and prediction, and its p value.
     ///
-    /// The p value assumes independent errors. For clusters, the jackknife computes the p value.
+    /// The p value assumes independent errors. For clusters it is undefined here, and the jackknife computes it.
     pub(crate) fn slope(&self) -> [Finished; 2] {
         let line = self.line();
         let chance = line.and_then(|line| match self.are_independent() {

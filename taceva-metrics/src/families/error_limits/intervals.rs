@@ -1,4 +1,4 @@
-//! Intervals of limits of errors, by leaving out one cluster at a time or by the rule of a metric.
+//! Intervals of error limits, by a jackknife over clusters or by the method of a metric.
 
 use taceva_core::Unit;
 
@@ -14,7 +14,7 @@ use crate::score::{COVERAGE, ClusteredBy, Interval};
 use crate::stats::NormalSample;
 use crate::stats::jackknife::{self, LeftOut};
 
-/// Numbers of all clusters together, and the normal sample of the errors.
+/// Value and variants computed from all clusters together, and the errors as a normal sample.
 pub(crate) struct Whole<'a> {
     pub(crate) numbers: &'a Numbers,
     /// Errors of one channel; `None` for a plane, because its axes depend on each other.
@@ -54,9 +54,9 @@ impl Part {
     }
 }
 
-/// Intervals of the value and of every variant of a score with these `clusters`, part by part.
+/// Intervals of the value and of every variant of a score. `clusters` has the sums of each cluster, for each channel of the output.
 ///
-/// The tolerance factor is the factor of all clusters, because another sample of as many clusters would have nearly the same factor.
+/// The jackknife keeps the tolerance factor of all clusters, because another sample of as many clusters would have nearly the same factor.
 pub(super) fn intervals(
     metric: &Metric,
     formula: &LimitFormula,

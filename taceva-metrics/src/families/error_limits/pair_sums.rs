@@ -1,4 +1,4 @@
-//! Sums of means and differences of pairs, by blocks.
+//! Sums over the means and differences of pairs, added in blocks.
 
 use crate::exact::moments::Moments;
 use crate::exact::{ColumnAdder, ColumnSums, ExactSum};
@@ -7,7 +7,7 @@ use crate::stats::DifferenceLine;
 /// Pairs of columns to multiply: mean², mean · difference, difference².
 const PRODUCTS: [[usize; 2]; 3] = [[0, 0], [0, 1], [1, 1]];
 
-/// Means and differences of the pairs of a batch.
+/// Mean and difference of truth and prediction, for the pairs of a batch.
 pub(super) struct PairColumns {
     adder: ColumnAdder,
     means: Vec<f64>,
@@ -25,13 +25,13 @@ impl Default for PairColumns {
 }
 
 impl PairColumns {
-    /// Appends a pair of valid values.
+    /// Appends the mean and the difference of a pair.
     pub(super) fn push(&mut self, mean: f64, difference: f64) {
         self.means.push(mean);
         self.differences.push(difference);
     }
 
-    /// Moves the pairs to `line`, and returns the moments of their differences.
+    /// Adds the pairs to the sums of `line`, clears them, and returns the moments of their differences.
     pub(super) fn settle_into(&mut self, line: &mut DifferenceLine) -> Moments {
         let mut sums = PairSums::default();
         self.adder.add(&[&self.means, &self.differences], &mut sums);

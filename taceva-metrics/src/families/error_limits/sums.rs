@@ -6,26 +6,28 @@ use crate::exact::record::Record;
 use crate::families::cells::{Cells, add_times};
 use crate::stats::{DifferenceLine, OneWaySums};
 
-/// Greatest number of clusters of a channel with separate errors, which limits the memory. Beyond this number, clusters count as unknown.
+/// Greatest number of clusters per channel, which limits the memory. With more clusters, all clusters count as unknown.
 pub(super) const MOST_CLUSTERS: u64 = 30_000;
 
-/// Greatest number of clusters of one hashed group of rows. A group of 1,501 is expected among 48,000 clusters, and its names would only
-/// take memory until the groups are merged. At 30,000 clusters a group has 937 clusters, with a standard deviation of 30.
+/// Greatest number of clusters in one of the 32 groups into which rows are hashed.
+///
+/// A group of 1,501 is expected among 48,000 clusters, more than `MOST_CLUSTERS`. Its names would only take memory until the groups are merged. At
+/// 30,000 clusters a group has about 937, with a standard deviation of 30.
 const MOST_OF_GROUP: u64 = 1500;
 
-/// Sums of one channel.
+/// Sums of the errors of one channel, in total and by cluster.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ErrorSums {
     pub(super) n: u64,
     pub(super) n_invalid: u64,
-    /// Line of the errors over the means of truth and prediction.
+    /// Sums for the line of the errors over the means of truth and prediction.
     pub(super) line: DifferenceLine,
     /// Errors by cluster; a single cell if clusters are unknown or every sample is its own cluster.
     pub(super) clusters: Cells<Moments>,
 }
 
 impl ErrorSums {
-    /// Merges all clusters of a group if there are too many. The result depends only on the set of rows.
+    /// Merges all clusters of a group with more than 1,500 clusters. The order of rows has no effect.
     pub(super) fn bound_group(&mut self) {
         if self.is_group_full() {
             self.clusters.forget_names();
@@ -36,7 +38,7 @@ impl ErrorSums {
         self.clusters.len() as u64 > MOST_OF_GROUP
     }
 
-    /// Converts the sums of a group to the record of a state.
+    /// Converts the sums of a group of rows to a record for a saved state.
     pub(super) fn to_record(&self) -> Record {
         if self.is_group_full() {
             let mut bounded = self.clone();
@@ -51,7 +53,7 @@ impl ErrorSums {
         }
     }
 
-    /// Reads the record of a state.
+    /// Reads the sums from a record of a saved state.
     pub(super) fn read_record(record: &Record) -> Result<ErrorSums, String> {
         let (&[n, n_invalid, named], sums) = record.with_cells()?;
         let clusters = Cells::from_record(record, named == 1, Moments::read_record)?;
@@ -85,13 +87,13 @@ impl Merge for ErrorSums {
     }
 }
 
-/// Sums over whole clusters, which determine every number.
+/// Sums over all errors and over clusters, from which value and variants are computed.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Totals {
     pub(super) line: DifferenceLine,
     pub(super) errors: Moments,
     pub(super) groups: OneWaySums,
-    /// True if an error has no cluster.
+    /// True if the cluster of an error is unknown.
     pub(super) is_unnamed: bool,
 }
 
@@ -116,7 +118,7 @@ impl Totals {
         all
     }
 
-    /// Totals with one of `parts` left out each, without any subtraction.
+    /// Totals of all `parts` but one, for each part in turn. They are added up without any subtraction.
     pub(super) fn without_each(parts: &[Totals]) -> Vec<Totals> {
         let mut others = Vec::with_capacity(parts.len());
         let mut after = Totals::default();

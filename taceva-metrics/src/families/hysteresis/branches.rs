@@ -13,7 +13,7 @@ use crate::exact::{Dyadic, ExactSum};
 use crate::pair::is_valid;
 use crate::score::value::UndefinedReason;
 
-/// Forces by depth on both branches, the place of the contact point, and the cached comparison of the branches.
+/// Forces by depth during loading and unloading, the place of the contact point, and the cached comparison of both branches.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Branches {
     load: Branch,
@@ -53,21 +53,21 @@ impl Branches {
         }
     }
 
-    /// Comparison of the branches.
+    /// Comparison of the loading with the unloading branch, cached until samples are added.
     pub(super) fn press(&self) -> Result<Press, UndefinedReason> {
         *self
             .press
             .get_or_init(|| Press::compare(&corners(&self.load), &corners(&self.unload)))
     }
 
-    /// Mean place, mm, rounded once; `None` if no sample has a place.
+    /// Mean place of the samples, mm, rounded once; `None` if no sample has a place.
     pub(super) fn place_mm(&self) -> Option<[f64; 2]> {
         let PlaceSums { n, sums } = &self.place;
         let mean = |axis: usize| sums[axis].to_dyadic().over(&Dyadic::from(*n));
         (*n > 0).then(|| [mean(0), mean(1)])
     }
 
-    /// Converts the sums to the record of a state.
+    /// Converts the sums to a record for a saved state.
     pub(super) fn to_record(&self) -> Record {
         let branch = |name: &str, branch: &Branch| {
             let record = Record {
@@ -90,7 +90,7 @@ impl Branches {
         }
     }
 
-    /// Reads the record of a state.
+    /// Reads the sums from a record of a saved state.
     pub(super) fn read_record(record: &Record) -> Result<Branches, String> {
         let (&[n], sums) = record.with_cells()?;
         let branches = record.read_cells(Phase::from_name, read_branch)?;
@@ -131,7 +131,7 @@ impl Merge for Branches {
     }
 }
 
-/// Depth and mean force at that depth, rounded once, in ascending order of depths.
+/// Points `[depth in mm, mean force in N]` of a branch, depths ascending. Each mean is rounded once.
 fn corners(branch: &Branch) -> Vec<[f64; 2]> {
     let mean = |count: &u64, forces: &ExactSum| forces.to_dyadic().over(&Dyadic::from(*count));
     let corners = branch.iter();

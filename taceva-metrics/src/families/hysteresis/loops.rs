@@ -20,11 +20,11 @@ use crate::score::range::Range;
 use crate::score::value::{Finished, UndefinedReason, Value};
 use crate::score::{Count, Variant};
 
-/// Family of force over depth by contact point.
+/// Family of metrics computed from force over depth at each contact point.
 pub(crate) static KIND: FamilyKind =
     FamilyKind::new("taceva.loops/1", |plan| erased(Loops::for_plan(plan)?));
 
-/// Family of force over depth on both branches of each contact point.
+/// Collects force over depth of loading and unloading, by contact point.
 pub(crate) struct Loops {
     depth: usize,
     force: usize,
@@ -32,7 +32,7 @@ pub(crate) struct Loops {
     grid: Option<Grid>,
 }
 
-/// Sums of all contact points.
+/// Number of samples, and forces by depth at each contact point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct LoopSums {
     n: u64,
@@ -41,7 +41,7 @@ pub(crate) struct LoopSums {
 }
 
 impl Loops {
-    /// The family for `plan`; `None` without depth or force.
+    /// Creates the family for `plan`; `None` if the plan lacks `Pz` or `Fz`.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Loops> {
         let position = |name| plan.channels().position(name);
         let place = position("Px").zip(position("Py"));
@@ -172,7 +172,7 @@ impl Family for Loops {
 }
 
 impl LoopSums {
-    /// Mean of `number` over the contact points with comparable branches, rounded once. Presses without the number are skipped.
+    /// Mean of `number` over the contact points with comparable branches, rounded once. A point is skipped if `number` returns `None`.
     fn mean(&self, number: &dyn Fn(&Press) -> Option<f64>) -> Finished {
         if self.n == 0 {
             return Err(UndefinedReason::Empty);
@@ -199,7 +199,7 @@ impl LoopSums {
         Ok(sum.to_dyadic().over(&Dyadic::from(count)))
     }
 
-    /// Mean area of the contact points in each cell of `grid`.
+    /// Map of the mean hysteresis area, over the contact points in each cell of `grid`.
     fn map(&self, grid: &Grid) -> Map {
         let mut areas: SortedMap<(u32, u32), Moments> = SortedMap::default();
         for (_, cell) in self.cells.iter() {
@@ -238,7 +238,7 @@ impl Merge for LoopSums {
     }
 }
 
-/// Returns the reason from the later step of the computation.
+/// Returns the one of two reasons that the computation would find later.
 fn further(left: UndefinedReason, right: UndefinedReason) -> UndefinedReason {
     let came = |reason: &UndefinedReason| match reason {
         UndefinedReason::ShortBranch => 0,

@@ -9,26 +9,26 @@ use crate::score::value::UndefinedReason;
 /// Force over depth of one branch: at least two points `[depth in mm, force in N]`, depths strictly ascending.
 pub(crate) type Branch<'a> = &'a [[f64; 2]];
 
-/// Hysteresis of one press.
+/// Comparison of the loading with the unloading branch of one press.
 ///
-/// The area of each stretch between two depths is a rational number, rounded once. The stretches are summed exactly. Unsigned areas have a
-/// relative error of at most 2⁻⁵². The signed area is within 2⁻⁵³ of the unsigned area, plus one rounding.
+/// The area between two neighbouring depths is a rational number, rounded once. These areas are summed exactly. Unsigned areas have a relative
+/// error of at most 2⁻⁵². The signed area is within 2⁻⁵³ of the unsigned area, plus one rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Press {
     /// ∫ |F_load − F_unload| dz over the depths that both branches reach, N mm.
     pub(crate) area: f64,
     /// ∫ (F_load − F_unload) dz, N mm; negative if the gel pushes harder during unloading.
     pub(crate) signed_area: f64,
-    /// ∫ F_load dz over the same depths, N mm.
+    /// ∫ F_load dz over the depths that both branches reach, N mm.
     pub(crate) work: f64,
-    /// Greatest |F_load − F_unload|, N.
+    /// Greatest |F_load − F_unload| over the depths that both branches reach, N.
     pub(crate) greatest_difference: f64,
-    /// Greatest |F_load| of the whole branch, N.
+    /// Greatest |F_load| over the whole loading branch, N.
     pub(crate) full_scale: f64,
 }
 
 impl Press {
-    /// Compares the two branches, each linear between its points.
+    /// Compares the loading with the unloading branch. The force is linear between the points of a branch.
     ///
     /// # Errors
     /// [`UndefinedReason::ShortBranch`] for a branch with fewer than two depths, [`UndefinedReason::NoOverlap`] if the branches have no range of
@@ -63,7 +63,7 @@ impl Press {
         (self.work > 0.0).then(|| self.area / self.work)
     }
 
-    /// Greatest difference as a share of full scale; `None` if all forces are 0.
+    /// Greatest difference of the branches, as a share of `full_scale`; `None` if all forces of loading are 0.
     pub(crate) fn relative_difference(&self) -> Option<f64> {
         (self.full_scale > 0.0).then(|| self.greatest_difference / self.full_scale)
     }
@@ -87,12 +87,12 @@ fn common_grid(load: Branch<'_>, unload: Branch<'_>) -> Result<Vec<f64>, Undefin
 
 /// A range of depths within which both branches are straight.
 struct Stretch {
-    /// Length of the range.
+    /// Length of the range of depths, mm.
     width: Dyadic,
-    /// F_load at both ends, multiplied by `load_scale`.
+    /// Force of loading at both ends of the range, multiplied by `load_scale`.
     load: [Dyadic; 2],
     load_scale: Dyadic,
-    /// F_load − F_unload at both ends, multiplied by `scale`.
+    /// Force of loading minus force of unloading at both ends of the range, multiplied by `scale`.
     difference: [Dyadic; 2],
     scale: Dyadic,
 }
@@ -112,7 +112,9 @@ impl Stretch {
         }
     }
 
-    /// (|u| + |v|) h / 2, or (u² + v²) h / (2 (|u| + |v|)) if the branches cross, with the differences u and v at the ends and the width h.
+    /// ∫ |F_load − F_unload| dz over the range: (|u| + |v|) h / 2, or (u² + v²) h / (2 (|u| + |v|)) if the branches cross.
+    ///
+    /// The differences at the ends are u and v, and the width is h.
     fn area(&self) -> f64 {
         let [u, v] = &self.difference;
         let sizes = &magnitude(u.clone()) + &magnitude(v.clone());
@@ -125,13 +127,13 @@ impl Stretch {
         }
     }
 
-    /// Mean of the differences at both ends, times the width.
+    /// ∫ (F_load − F_unload) dz over the range: the mean of the differences at both ends, times the width.
     fn signed_area(&self) -> f64 {
         let [u, v] = &self.difference;
         (&(u + v) * &self.width).over(&twice(&self.scale))
     }
 
-    /// Mean of F_load at both ends, times the width.
+    /// ∫ F_load dz over the range: the mean of F_load at both ends, times the width.
     fn work(&self) -> f64 {
         let [start, end] = &self.load;
         (&(start + end) * &self.width).over(&twice(&self.load_scale))
@@ -147,11 +149,11 @@ impl Stretch {
     }
 }
 
-/// A branch between two neighbouring points, evaluated at the ends of a stretch within them.
+/// Straight piece of a branch, with the forces at both ends of a range of depths.
 struct Chord {
-    /// Forces, multiplied by `scale`.
+    /// Forces at both ends of the range, multiplied by `scale`.
     forces: [Dyadic; 2],
-    /// Distance of the points in depth.
+    /// Difference in depth between the end points of the straight piece.
     scale: Dyadic,
 }
 

@@ -4,20 +4,20 @@ use crate::exact::{Dyadic, ExactSum};
 use crate::geometry::{Hull, NearestPoints, Point};
 use crate::score::value::UndefinedReason;
 
-/// Gap between two surfaces, mm, in both directions.
+/// Mean distances between two surfaces, mm, from each to the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Gap {
     /// Mean distance from points of the first surface to the nearest point of the second, rounded once.
     pub(crate) forward: f64,
     /// Mean distance from points of the second surface to the nearest point of the first, rounded once.
     pub(crate) backward: f64,
-    /// Number of compared points of both surfaces.
+    /// Number of points of both surfaces from which a distance was measured.
     pub(crate) points: u64,
 }
 
 impl Gap {
-    /// Compares two surfaces where they overlap: points whose projection along z is in the hull of the other surface. The
-    /// nearest point is the nearest of all points of the other surface.
+    /// Measures the gap between two surfaces where they overlap. A point counts if, seen along z, it lies in the convex hull of the other surface.
+    /// Its nearest point may be any point of the other surface.
     ///
     /// A distance √(x² + y² + z²) is rounded at every step, and distances are summed exactly.
     ///
@@ -33,13 +33,13 @@ impl Gap {
         })
     }
 
-    /// Mean of both directions, rounded once. Lengths are far from over- and underflow.
+    /// Mean of `forward` and `backward`, mm, rounded once. Lengths are far from over- and underflow.
     pub(crate) fn both(&self) -> f64 {
         (self.forward + self.backward) * 0.5
     }
 }
 
-/// Mean distance to the nearest point of `to`, over the points of `from` within the hull of `to`, and the number of these points.
+/// Mean distance to the nearest point of `to`, over the points of `from` within the hull of `to`. Also returns the number of these points.
 fn mean_distance(from: &[Point], to: &[Point]) -> Result<(f64, u64), UndefinedReason> {
     let seen_from_above = |&[x, y, _]: &Point| [x, y];
     let hull = Hull::of(to.iter().map(seen_from_above));
@@ -49,7 +49,8 @@ fn mean_distance(from: &[Point], to: &[Point]) -> Result<(f64, u64), UndefinedRe
     mean_of_nearest(common, to).ok_or(UndefinedReason::NoOverlap)
 }
 
-/// Mean distance from each point of `from` to the nearest point of `to`, rounded once, and the number of points in `from`; `None` for no point.
+/// Mean distance from each point of `from` to the nearest point of `to`, rounded once, and the number of points of `from`. `None` if there is no
+/// point.
 fn mean_of_nearest<'a>(from: impl Iterator<Item = &'a Point>, to: &[Point]) -> Option<(f64, u64)> {
     let search = NearestPoints::new(to.iter().copied());
     let (mut count, mut distances) = (0, ExactSum::default());
@@ -64,8 +65,8 @@ fn mean_of_nearest<'a>(from: impl Iterator<Item = &'a Point>, to: &[Point]) -> O
 mod tests {
     use super::*;
 
-    /// The clouds of `inter_sensor` in the golden vectors have mean distances known to 45 digits. `TACEVA_GOLDEN` names a
-    /// folder with other vectors.
+    /// The reference file for `inter_sensor` gives mean distances of its point clouds to 45 digits. `TACEVA_GOLDEN` names a folder with another
+    /// file.
     #[test]
     fn distances_to_the_nearest_point_are_those_of_the_golden_vectors() {
         let own = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden");

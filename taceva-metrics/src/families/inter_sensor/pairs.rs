@@ -1,4 +1,4 @@
-//! Registers and compares every pair of units.
+//! Aligns the surfaces of every pair of sensor units and measures their gap.
 
 use super::gap::Gap;
 use super::surfaces::{Cloud, SurfaceClouds};
@@ -7,13 +7,13 @@ use crate::geometry::{Motion, Point, Registration, register_clouds};
 use crate::score::matrix::Matrix;
 use crate::score::value::{Finished, UndefinedReason};
 
-/// Gaps of all pairs of units.
+/// Gaps between the surfaces of all pairs of sensor units.
 pub(super) struct UnitGaps {
     units: Vec<String>,
     pairs: Vec<UnitPair>,
 }
 
-/// Two units, by index in the order of names, with their gap.
+/// Gap between two units, given by their indices in the order of names.
 struct UnitPair {
     units: [usize; 2],
     gap: Result<Gap, UndefinedReason>,
@@ -22,7 +22,7 @@ struct UnitPair {
 }
 
 impl UnitGaps {
-    /// Registers each later unit, in the order of names, to each earlier unit and compares both.
+    /// Aligns the surface of each unit with the surface of every unit before it in the order of names, and measures the gap.
     ///
     /// # Errors
     /// [`UndefinedReason`] if there are no samples, or only one unit.
@@ -60,7 +60,7 @@ impl UnitGaps {
         }
     }
 
-    /// Gap of each pair, by the names of both units.
+    /// Matrix of the gaps, mm, with a row and a column for each unit. A gap is the mean of both directions.
     pub(super) fn matrix(&self) -> Matrix {
         let mut values = vec![vec![None; self.units.len()]; self.units.len()];
         for pair in &self.pairs {
@@ -80,22 +80,22 @@ impl UnitGaps {
         self.units.iter().fold(0, |count, _| count + 1)
     }
 
-    /// Number of pairs.
+    /// Number of pairs of units.
     pub(super) fn total(&self) -> u64 {
         self.count(|_| true)
     }
 
-    /// Number of pairs with a gap.
+    /// Number of pairs of units whose gap is defined.
     pub(super) fn valid(&self) -> u64 {
         self.count(|pair| pair.gap.is_ok())
     }
 
-    /// Number of pairs registered by contact points with equal names.
+    /// Number of pairs of units that were aligned by contact points with equal names.
     pub(super) fn by_point(&self) -> u64 {
         self.count(|pair| pair.by_point)
     }
 
-    /// Number of pairs whose registration had not converged after the last step.
+    /// Number of pairs of units whose alignment had not converged after the last step.
     pub(super) fn unsettled(&self) -> u64 {
         self.count(|pair| !pair.settled)
     }
@@ -106,7 +106,7 @@ impl UnitGaps {
     }
 }
 
-/// Registers `from` to `onto` and measures the gap.
+/// Aligns the surface `from` with the surface `onto` and measures their gap.
 fn compare(units: [usize; 2], onto: &Cloud, from: &Cloud) -> UnitPair {
     let [shared_from, shared_onto] = shared_points(from, onto);
     let by_point = shared_from.len() >= 3;

@@ -12,7 +12,7 @@ use crate::exact::{Dyadic, ExactSum};
 use crate::families::cells::{Cells, add_times};
 use crate::geometry::Point;
 
-/// Places by contact point and unit.
+/// Places of first contact, by contact point and sensor unit.
 ///
 /// The places form a set: a place in several samples counts once.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -31,18 +31,18 @@ struct Places {
     units: SortedMap<String, PlaceSet>,
 }
 
-/// Surface of one unit: points in a defined order, each with the index of its contact point.
+/// Surface of one unit: its points in a fixed order, and the index of the contact point of each.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Cloud {
     /// Points of the surface, mm.
     pub(super) points: Vec<Point>,
-    /// Index of each point's contact point. Equal indices in two clouds are the same contact point. Empty if samples have no contact points.
+    /// Index of each point's contact point, the same for all units. Empty if samples have no contact points.
     pub(super) locations: Vec<usize>,
 }
 
 impl SurfaceClouds {
-    /// Adds the places of `rows` of `batch`. `axes` are the indices of the channels of x, y and z, mm. A place with an unusable
-    /// coordinate is counted and skipped.
+    /// Adds the places of `rows` of `batch`. `axes` are the indices of the channels of x, y and z, mm. A place with an invalid coordinate only
+    /// raises the count of skipped samples.
     pub(super) fn deposit(&mut self, batch: &Batch, axes: [usize; 3], rows: Option<&[u32]>) {
         let mut cells = self.cells.of_batch(batch);
         let Some(units) = batch.labels(Field::UnitId) else {
@@ -79,7 +79,7 @@ impl SurfaceClouds {
         self.n_invalid
     }
 
-    /// Cloud of each unit. If samples have contact points, each contact point has one point: the mean of its places along each axis.
+    /// Surface of each unit as points. If samples have contact points, each contact point has one point: the mean of its places along each axis.
     /// Otherwise every place is a point.
     pub(super) fn by_unit(&self) -> Vec<(&str, Cloud)> {
         let mut clouds: SortedMap<&str, Cloud> = SortedMap::default();
@@ -100,7 +100,7 @@ impl SurfaceClouds {
         clouds.collect()
     }
 
-    /// Converts the surfaces to the record of a state: x y z of each place, by contact point and unit.
+    /// Converts the surfaces to a record for a saved state: x, y and z of each place, by contact point and unit.
     pub(super) fn to_record(&self) -> Record {
         let cell = |cell: &Places| {
             let units = cell.units.iter().map(|(unit, places)| {
@@ -125,7 +125,7 @@ impl SurfaceClouds {
         }
     }
 
-    /// Reads the record of a state.
+    /// Reads the surfaces from a record of a saved state.
     pub(super) fn read_record(record: &Record) -> Result<SurfaceClouds, String> {
         let (&[n, n_invalid, named], []) = record.with_cells()?;
         let places = |record: &Record| {

@@ -1,4 +1,4 @@
-//! Frames of a recording, and the hull of its contact places.
+//! Frames of a recording, and the convex hull of the places of contact.
 
 use crate::exact::Dyadic;
 use crate::exact::merge::{Merge, keyed};
@@ -10,13 +10,14 @@ use crate::pair::is_valid;
 use crate::score::value::{Finished, UndefinedReason};
 use taceva_core::random::fnv_1a;
 
-/// Times of all frames, and the hull of the contact places.
+/// Times and digests of all frames, and the convex hull of the places of contact.
 ///
-/// The frames form a set: a frame in several samples counts once. Eight bytes of each digest are stored, enough to distinguish neighbours.
+/// The frames form a set: a frame in several samples counts once. A digest is shortened to eight bytes, which suffice to compare neighbouring
+/// frames.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct IntrinsicSums {
     n_invalid: u64,
-    /// Samples with a time.
+    /// Number of samples with a time.
     timed: u64,
     /// Number of samples that are in contact and have a place.
     contacts: u64,
@@ -36,7 +37,7 @@ impl IntrinsicSums {
         }
     }
 
-    /// Adds contact places, mm.
+    /// Adds places of contact, x and y in mm.
     pub(super) fn add_contacts(&mut self, places_mm: &[[f64; 2]]) {
         let valid = |place: &&[f64; 2]| place.iter().all(|value| is_valid(*value));
         for place in places_mm {
@@ -56,7 +57,7 @@ impl IntrinsicSums {
         times.into_iter().map(Ordered::value).collect()
     }
 
-    /// Number of frames.
+    /// Number of different frames.
     pub(super) fn frames(&self) -> u64 {
         self.frames.iter().fold(0, |count, _| count + 1)
     }
@@ -76,7 +77,7 @@ impl IntrinsicSums {
         self.n_invalid
     }
 
-    /// Share of duplicates among the frames with a digest whose predecessor has a digest.
+    /// Share of frames with the digest of the previous frame, over the frames for which both digests are known.
     pub(super) fn duplicated(&self) -> Finished {
         if self.frames.is_empty() {
             return Err(UndefinedReason::NoTimes);
@@ -96,7 +97,7 @@ impl IntrinsicSums {
         Ok(Dyadic::from(duplicates).over(&Dyadic::from(followers)))
     }
 
-    /// Area of the hull, mm², rounded once.
+    /// Area of the convex hull of the places of contact, mm², rounded once.
     pub(super) fn field_of_view(&self) -> Finished {
         if self.hull.hull().is_empty() {
             return Err(UndefinedReason::NoContact);
@@ -104,7 +105,7 @@ impl IntrinsicSums {
         Ok(self.hull.hull().area())
     }
 
-    /// Width (axis 0) or height (axis 1) of the hull, mm.
+    /// Width (axis 0) or height (axis 1) of the convex hull of the places of contact, mm.
     pub(super) fn extent(&self, axis: usize) -> Finished {
         let extent = self
             .hull
@@ -114,8 +115,7 @@ impl IntrinsicSums {
         Ok(extent[1] - extent[0])
     }
 
-    /// Converts the sums to the record of a state: the corners of the hull, and two records for the frames with and without
-    /// digests.
+    /// Converts the sums to a record for a saved state: the corners of the hull, and one record each for frames with and without a digest.
     pub(super) fn to_record(&self) -> Record {
         let part = |of: &dyn Fn(&Option<u64>) -> bool| {
             let frames = self.frames.iter().filter(|((_, digest), ())| of(digest));
@@ -143,7 +143,7 @@ impl IntrinsicSums {
         }
     }
 
-    /// Reads the record of a state.
+    /// Reads the sums from a record of a saved state.
     pub(super) fn read_record(record: &Record) -> Result<IntrinsicSums, String> {
         let (&[n_invalid, timed, contacts], []) = record.with_cells()?;
         let hull = Hull::from_values(&record.values)?;

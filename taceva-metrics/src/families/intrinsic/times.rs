@@ -5,7 +5,7 @@ use crate::exact::Dyadic;
 use crate::exact::moments::Moments;
 use crate::score::value::{Finished, UndefinedReason};
 
-/// Intervals between successive times, s, ascending.
+/// Intervals between successive frames, s, sorted from short to long.
 pub(super) struct Intervals {
     sorted: Vec<f64>,
 }
@@ -16,10 +16,10 @@ pub const STREAM_S: f64 = 1.0;
 const GAP: f64 = 1.5;
 
 impl Intervals {
-    /// Each difference of successive times, rounded once.
+    /// Computes the differences of successive times, each rounded once.
     ///
     /// # Errors
-    /// [`UndefinedReason`] for fewer than two different times, or if the frames are single pictures.
+    /// [`UndefinedReason`] for fewer than two different times, or a median interval above [`STREAM_S`].
     pub(super) fn of(sums: &IntrinsicSums) -> Result<Intervals, UndefinedReason> {
         match sums.times_s()[..] {
             [] => Err(UndefinedReason::NoTimes),
@@ -37,7 +37,7 @@ impl Intervals {
         }
     }
 
-    /// Median interval, s: the middle interval, or the mean of the two middle intervals.
+    /// Median interval between frames, s: the middle interval, or the mean of the two middle intervals.
     fn median(&self) -> f64 {
         let middle = self.sorted.len() / 2;
         if self.sorted.len() % 2 == 1 {
@@ -47,7 +47,7 @@ impl Intervals {
         }
     }
 
-    /// Reciprocal of the median interval, Hz.
+    /// Frame rate, Hz: the reciprocal of the median interval.
     pub(super) fn frame_rate(&self) -> Finished {
         Ok(1.0 / self.median())
     }
@@ -60,7 +60,7 @@ impl Intervals {
             .ok_or(UndefinedReason::TooFew { least: 3 })
     }
 
-    /// Share of intervals that are gaps.
+    /// Share of intervals that are gaps, longer than 1.5 medians.
     pub(super) fn dropped(&self) -> f64 {
         let count = |intervals: &[f64]| intervals.iter().fold(0_u64, |count, _| count + 1);
         let all = count(&self.sorted);
@@ -68,7 +68,7 @@ impl Intervals {
         Dyadic::from(gaps).over(&Dyadic::from(all))
     }
 
-    /// Intervals without gaps.
+    /// Intervals that are not gaps: at most 1.5 medians.
     fn regular(&self) -> &[f64] {
         let limit = GAP * self.median();
         let regular = self.sorted.partition_point(|interval| *interval <= limit);

@@ -1,4 +1,4 @@
-//! Comparison of one scene with the reference scene.
+//! Change of brightness and error from the reference scene to another lighting scene.
 
 use super::sums::SceneSums;
 use crate::exact::Dyadic;
@@ -11,7 +11,7 @@ pub(super) struct Change {
     pub(super) error: [f64; 2],
 }
 
-/// Relative change of brightness below which a scene is uninformative.
+/// Relative change of brightness below which a scene says little about robustness.
 const LOW_STIMULUS: f64 = 0.05;
 
 impl Change {
@@ -22,7 +22,9 @@ impl Change {
         }
     }
 
-    /// Robustness R = a / (a + b), a = |Ic/Io − 1|, b = |MAEc/MAEo − 1|, rounded once.
+    /// Robustness R = a / (a + b), rounded once, with a = |Ic/Io − 1| and b = |MAEc/MAEo − 1|.
+    ///
+    /// I is the brightness and MAE the mean absolute error, in the lighting scene c and the reference scene o.
     pub(super) fn robustness(self) -> Finished {
         self.share(|difference| {
             if difference.is_negative() {
@@ -33,7 +35,9 @@ impl Change {
         })
     }
 
-    /// Robustness R = a / (a + b), a = |Ic/Io − 1|, with b = max(0, MAEc/MAEo − 1): a smaller error does not reduce the robustness.
+    /// Robustness R = a / (a + b), with a = |Ic/Io − 1| and b = max(0, MAEc/MAEo − 1): a smaller error does not reduce the robustness.
+    ///
+    /// I is the brightness and MAE the mean absolute error, in the lighting scene c and the reference scene o.
     pub(super) fn robustness_plus(self) -> Finished {
         self.share(|difference| {
             if difference.is_negative() {
@@ -44,7 +48,9 @@ impl Change {
         })
     }
 
-    /// |Ic − Io| MAEo / (|Ic − Io| MAEo + b Io), rounded once, with b the result of `counted` for MAEc − MAEo.
+    /// Robustness |Ic − Io| MAEo / (|Ic − Io| MAEo + b Io), rounded once. `counted` computes b from MAEc − MAEo.
+    ///
+    /// I is the brightness and MAE the mean absolute error, in the lighting scene c and the reference scene o.
     fn share(self, counted: impl Fn(Dyadic) -> Dyadic) -> Finished {
         let [scene_intensity, intensity] = self.intensity.map(Dyadic::from_f64);
         let [scene_error, error] = self.error.map(Dyadic::from_f64);
@@ -69,14 +75,14 @@ impl Change {
         Ok(light.over(&both))
     }
 
-    /// Ic / Io and MAEc / MAEo; `None` for an undefined ratio.
+    /// Ratios of brightness and of mean absolute error, scene over reference scene; `None` for an undefined ratio.
     pub(super) fn ratios(self) -> [Option<f64>; 2] {
         let ratio = |[scene, reference]: [f64; 2]| (reference > 0.0).then_some(scene / reference);
         [ratio(self.intensity), ratio(self.error)]
             .map(|ratio| ratio.filter(|ratio| ratio.is_finite()))
     }
 
-    /// True if the brightness changed by less than 5 %.
+    /// True if the brightness differs by less than 5 % from the reference scene.
     pub(super) fn is_low_stimulus(self) -> bool {
         let [ratio, _] = self.ratios();
         ratio.is_some_and(|ratio| (ratio - 1.0).abs() < LOW_STIMULUS)
@@ -89,10 +95,11 @@ impl Change {
 
     /// Slope ∂R / ∂ ln MAEc of the robustness R = a / (a + b): magnitude a ρ / (a + b)² with ρ = MAEc / MAEo.
     ///
-    /// Positive only if the error is below the reference. The derivative with respect to ln MAEo has the opposite sign.
+    /// MAEc and MAEo are the mean absolute errors of the scene and of the reference scene. The relative change of brightness is a, that of the
+    /// error b. The slope is positive only if MAEc is below MAEo. The derivative with respect to ln MAEo has the opposite sign.
     ///
-    /// For `plus`, R is 1 if the error is below the reference, but the true error may be above. A slope of 0 would suggest a certain R, so the slope
-    /// keeps this magnitude with a negative sign. `None` if R is undefined.
+    /// For `plus`, R is 1 if MAEc is below MAEo, but the true error may be above. A slope of 0 would suggest a certain R, so the slope keeps this
+    /// magnitude with a negative sign. `None` if R is undefined.
     pub(super) fn slope(self, plus: bool) -> Option<f64> {
         let [Some(light), Some(harm)] = self.ratios() else {
             return None;

@@ -10,12 +10,13 @@ use crate::score::range::Range;
 use crate::score::value::{Finished, UndefinedReason};
 use crate::stats::jackknife::{self, LeftOut};
 
-/// Intervals of one channel's scores, by the jackknife of the joint changes of errors.
+/// Intervals of the robustness of one channel, by the delta method and a jackknife over contact points.
 ///
-/// To first order the robustness R_c to scene c changes by s_c (δ_c − δ_o), with s_c = ∂R_c / ∂ ln MAEc, the relative change δ of a mean
-/// absolute error, and the reference scene o. A mean over C scenes changes by Σ s_c (δ_c − δ_o) / C. A contact point is left out of all scenes
-/// at once, because presses at one place have similar errors in every light. The brightness counts as exact, because
-/// it is a mean over whole pictures.
+/// A left-out contact point changes the mean absolute error of scene c by a share δ_c, and of the reference scene by δ_o. To first order, the
+/// robustness R_c to scene c changes by s_c (δ_c − δ_o), with s_c = ∂R_c / ∂ ln MAEc. The mean over C scenes changes by Σ s_c (δ_c − δ_o) / C.
+///
+/// A contact point is left out of all scenes at once, because presses at one place have similar errors in every light. The brightness counts as
+/// exact, because it is a mean over whole pictures.
 pub(super) fn intervals(
     total: &LightingSums,
     clusters: &[&LightingSums],
@@ -68,20 +69,20 @@ pub(super) fn intervals(
     }
 }
 
-/// Term of one scene in a robustness.
+/// Contribution of one scene to the mean robustness.
 #[derive(Clone, Copy)]
 struct Term<'a> {
     scene: &'a str,
     value: f64,
-    /// Slope of the robustness; `None` if not finite.
+    /// Slope of the robustness over the logarithm of the scene's error; `None` if not finite.
     slope: Option<f64>,
 }
 
-/// Mean absolute errors of scenes, with one contact point left out each.
+/// Sums of errors by scene, with each contact point left out in turn.
 struct Moves<'a> {
     total: &'a LightingSums,
     reference: &'a str,
-    /// Number of samples of each contact point, and the sums of all other points.
+    /// For each contact point, its number of samples and the sums of all other contact points.
     others: Vec<(u64, LightingSums)>,
     clusters: &'a [&'a LightingSums],
 }
@@ -106,7 +107,7 @@ impl<'a> Moves<'a> {
         }
     }
 
-    /// Interval of the mean of `terms`.
+    /// Interval of the mean robustness over the scenes of `terms`.
     fn interval<'t>(
         &self,
         terms: impl IntoIterator<Item = &'t Term<'t>>,
@@ -140,7 +141,7 @@ impl<'a> Moves<'a> {
         with.filter(|cell| cell.scenes.get(scene).is_some()).count()
     }
 
-    /// First-order change of the mean of `terms` if only the sums `others` are used.
+    /// First-order change of the mean robustness over `terms`, if only the samples in `others` are used.
     fn moved(&self, terms: &[&Term<'_>], others: &LightingSums) -> Finished {
         let baseline = self.change_of(self.reference, others)?;
         let mut sum = 0.0;
@@ -151,7 +152,7 @@ impl<'a> Moves<'a> {
         Ok(sum / terms.iter().fold(0.0, |count, _| count + 1.0))
     }
 
-    /// Relative change of the mean absolute error of a scene.
+    /// Relative change of the mean absolute error of `scene`, from all samples to those in `others`.
     fn change_of(&self, scene: &str, others: &LightingSums) -> Finished {
         let mean = |sums: &LightingSums| match sums.scenes.get(scene) {
             Some(sums) if sums.n > 0 => Ok(sums.mean_error()),

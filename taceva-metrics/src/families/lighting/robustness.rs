@@ -44,7 +44,7 @@ pub(crate) static R_LIGHT: Metric = Metric {
     ..Metric::of(&KIND)
 };
 
-/// Change of each scene relative to the reference scene.
+/// Brightness and error of each lighting scene, compared with the scene `reference`.
 pub(super) fn changes<'a>(
     sums: &'a LightingSums,
     reference: &str,
@@ -63,12 +63,12 @@ pub(super) fn changes<'a>(
     Ok(changes)
 }
 
-/// Name of the variant with the value of one scene.
+/// Name of the variant that holds the robustness to `scene`.
 pub(super) fn variant_of(scene: &str) -> String {
     format!("scene:{scene}")
 }
 
-/// Mean of the robustnesses to each scene, over the scenes with a defined robustness, rounded once.
+/// Robustness to lighting: the mean over the scenes with a defined robustness, rounded once. The robustness to each scene is a variant.
 pub(super) fn robustness(sums: &LightingSums, reference: &str) -> Numbers {
     let changes = match changes(sums, reference) {
         Ok(changes) => changes,
@@ -92,7 +92,7 @@ pub(super) fn robustness(sums: &LightingSums, reference: &str) -> Numbers {
     })
 }
 
-/// Mean of the defined values, rounded once; the first reason if all are undefined.
+/// Mean of the defined values, rounded once. Returns the first reason if no value is defined.
 pub(super) fn mean_of_defined(values: impl Iterator<Item = Finished>) -> Finished {
     let mut reason = None;
     let (mut sum, mut defined) = (ExactSum::default(), 0_u64);
@@ -111,7 +111,7 @@ pub(super) fn mean_of_defined(values: impl Iterator<Item = Finished>) -> Finishe
     Ok(sum.to_dyadic().over(&Dyadic::from(defined)))
 }
 
-/// Ratios of each scene, counts of scenes, and flags.
+/// Ratios of brightness and error of each lighting scene, counts of scenes, and flags.
 pub(super) fn details(sums: &LightingSums, reference: &str) -> Details {
     let Ok(changes) = changes(sums, reference) else {
         return Details::default();
@@ -145,7 +145,7 @@ pub(super) fn details(sums: &LightingSums, reference: &str) -> Details {
     }
 }
 
-/// Flags raised by any scene of any of `parts`.
+/// Flags raised by any lighting scene in any channel of `parts`.
 pub(super) fn flags(parts: &[&LightingSums], reference: &str) -> Vec<Flag> {
     let found = parts
         .iter()
@@ -162,7 +162,7 @@ pub(super) fn flags(parts: &[&LightingSums], reference: &str) -> Vec<Flag> {
     flags.into_iter().flatten().collect()
 }
 
-/// Value for a plane, whose error in each scene is the mean of both axes' mean absolute errors.
+/// Robustness of a plane. Its error in each scene is the mean of the mean absolute errors of both axes.
 pub(super) fn of_plane(parts: [&LightingSums; 2], reference: &str) -> Finished {
     let [x, y] = [changes(parts[0], reference)?, changes(parts[1], reference)?];
     let along_y = |scene: &str| {

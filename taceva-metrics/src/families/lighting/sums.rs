@@ -6,38 +6,38 @@ use crate::exact::sorted_map::SortedMap;
 use crate::exact::{Dyadic, ExactSum};
 use crate::pair::{Paired, is_valid};
 
-/// Errors of one channel and brightness of the pictures, by scene.
+/// Sums of the errors of one channel and of the brightness of its pictures, by lighting scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct LightingSums {
     pub(super) n_invalid: u64,
-    /// Sums of the scenes with samples.
+    /// Sums of each lighting scene with samples, by name.
     pub(super) scenes: SortedMap<String, SceneSums>,
 }
 
-/// Count and exact sums of one scene.
+/// Number of samples and exact sums of one lighting scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct SceneSums {
     pub(super) n: u64,
-    /// Sum of the absolute residuals, in the unit of the channel.
+    /// Sum of the absolute residuals over samples, in the unit of the channel.
     pub(super) error: ExactSum,
-    /// Sum of the brightness, on the 8-bit scale.
+    /// Sum of the brightness over samples. The brightness of a picture is on the 8-bit scale.
     pub(super) intensity: ExactSum,
 }
 
 impl SceneSums {
-    /// Mean absolute error, rounded once.
+    /// Mean absolute error over the samples of the scene, rounded once.
     pub(super) fn mean_error(&self) -> f64 {
         self.error.to_dyadic().over(&Dyadic::from(self.n))
     }
 
-    /// Mean brightness, rounded once.
+    /// Mean brightness over the samples of the scene, rounded once.
     pub(super) fn mean_intensity(&self) -> f64 {
         self.intensity.to_dyadic().over(&Dyadic::from(self.n))
     }
 }
 
 impl LightingSums {
-    /// Adds a sample of `scene`.
+    /// Adds a sample of `scene` with the brightness of its picture. An invalid sample only raises the count of skipped samples.
     pub(super) fn add(&mut self, scene: &str, pair: Paired<f64>, intensity: f64) {
         if !pair.is_valid() || !is_valid(intensity) || intensity < 0.0 {
             self.n_invalid += 1;

@@ -11,18 +11,18 @@ use crate::score::value::UndefinedReason;
 /// Least number of samples for a line. Two samples are always on a line.
 pub(super) const LEAST_SAMPLES: u64 = 3;
 
-/// Pairs of columns to multiply, for Σ x² and Σ x y.
+/// Pairs of columns to multiply for Σ x² and Σ x y. Column 0 is the truth x, column 1 the prediction y.
 pub(super) const PRODUCTS: [[usize; 2]; 2] = [[0, 0], [0, 1]];
 
-/// Sums of the pairs of one channel, with x the truth and y the prediction.
+/// Sums over the pairs of one channel, with x the truth and y the prediction.
 ///
-/// The greatest deviation from any line is at a corner of the convex hull, so the hull replaces the points.
+/// The greatest deviation from any line is at a corner of the convex hull, so only the hull of the pairs is stored.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct LineSums {
     n: u64,
     n_invalid: u64,
     hull: GrowingHull,
-    /// Σ x, Σ y, Σ x², Σ x y.
+    /// Σ x, Σ y, Σ x² and Σ x y over pairs, with the truth x and the prediction y.
     sums: [ExactSum; 4],
 }
 
@@ -37,7 +37,7 @@ impl LineSums {
         self.n_invalid
     }
 
-    /// Converts the sums to the record of a state, with the corners as x, y, x, y, ….
+    /// Converts the sums to a record for a saved state, with the corners of the hull as x, y, x, y, ….
     pub(super) fn to_record(&self) -> Record {
         Record {
             counts: vec![self.n, self.n_invalid],
@@ -47,7 +47,7 @@ impl LineSums {
         }
     }
 
-    /// Reads the record of a state.
+    /// Reads the sums from a record of a saved state.
     pub(super) fn read_record(record: &Record) -> Result<LineSums, String> {
         let (&[n, n_invalid], sums) = record.with_cells()?;
         let hull = Hull::from_values(&record.values)?;
@@ -93,33 +93,33 @@ impl Merge for LineSums {
 /// Least-squares line y = a + b x of predictions y over truths x. Each number is an exact rational, rounded once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Line {
-    /// Slope b = (n Σ x y − Σ x Σ y) / (n Σ x² − (Σ x)²).
+    /// Slope b = (n Σ x y − Σ x Σ y) / (n Σ x² − (Σ x)²) over n truths x and predictions y.
     pub(super) slope: f64,
-    /// Offset a = (Σ y Σ x² − Σ x Σ x y) / (n Σ x² − (Σ x)²).
+    /// Offset a = (Σ y Σ x² − Σ x Σ x y) / (n Σ x² − (Σ x)²) over n truths x and predictions y.
     pub(super) offset: f64,
 }
 
 /// Greatest deviation of predictions y from the least-squares line a + b x.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Deviation {
-    /// max |y − a − b x|.
+    /// Greatest deviation of a prediction from the line: max |y − a − b x|, in the unit of the channel.
     pub(super) greatest: f64,
-    /// max |y − a − b x| / (max x − min x).
+    /// Greatest deviation as a share of the range of the truth: max |y − a − b x| / (max x − min x).
     pub(super) relative: f64,
 }
 
-/// Terms of the formulas of a [`Line`].
+/// Exact terms from which a [`Line`] of predictions y over n truths x is computed.
 struct Fit {
     n: Dyadic,
-    /// Σ x and Σ y.
+    /// Sums Σ x of the truths and Σ y of the predictions.
     sums: [Dyadic; 2],
-    /// n Σ x y − Σ x Σ y.
+    /// Numerator of the slope: n Σ x y − Σ x Σ y over n truths x and predictions y.
     shared: Dyadic,
-    /// n Σ x² − (Σ x)².
+    /// Denominator of slope and offset: n Σ x² − (Σ x)² over n truths x.
     spread: Dyadic,
-    /// Σ y Σ x² − Σ x Σ x y.
+    /// Numerator of the offset: Σ y Σ x² − Σ x Σ x y over truths x and predictions y.
     rest: Dyadic,
-    /// max x − min x.
+    /// Range of the truth: max x − min x.
     range: Dyadic,
 }
 
@@ -169,7 +169,7 @@ impl Line {
 }
 
 impl Deviation {
-    /// Deviation of the pairs in `sums`.
+    /// Greatest deviation of the predictions in `sums` from their least-squares line over the truth.
     ///
     /// # Errors
     /// The errors of [`Line::through`].

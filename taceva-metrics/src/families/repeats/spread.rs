@@ -1,4 +1,4 @@
-//! Spread within cells, and statistics of these spreads over cells.
+//! Spread of predictions within a cell of repeated presses, and statistics of these spreads over cells.
 
 use std::sync::OnceLock;
 
@@ -8,7 +8,7 @@ use crate::exact::{Dyadic, ExactSum};
 use crate::families::cells::Cells;
 use crate::score::value::{Finished, UndefinedReason};
 
-/// Repeats of one cell, and their cached spread.
+/// Repeated predictions at one contact point and depth, and their cached spread.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Cell {
     moments: Moments,
@@ -16,7 +16,7 @@ pub(crate) struct Cell {
 }
 
 impl Cell {
-    /// Cell with the given repeats.
+    /// Cell with the count and sums of its repeated predictions.
     pub(crate) fn new(moments: Moments) -> Cell {
         Cell {
             moments,
@@ -24,18 +24,18 @@ impl Cell {
         }
     }
 
-    /// Adds a finite repeat.
+    /// Adds a repeated prediction, which must be finite.
     pub(crate) fn add(&mut self, value: f64) {
         self.spread = OnceLock::new();
         self.moments.add(value);
     }
 
-    /// Count and sums of the repeats.
+    /// Count and sums of the repeated predictions.
     pub(crate) fn moments(&self) -> &Moments {
         &self.moments
     }
 
-    /// Spread of the repeats; `None` for fewer than two repeats.
+    /// Spread of the repeated predictions; `None` for fewer than two.
     pub(crate) fn spread(&self) -> Option<Spread> {
         *self.spread.get_or_init(|| Spread::of(&self.moments))
     }
@@ -54,18 +54,18 @@ impl Merge for Cell {
     }
 }
 
-/// Spread of the repeats of one cell.
+/// Mean and spread of the repeated predictions of one cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Spread {
-    /// Number of repeats minus 1.
+    /// Degrees of freedom: the number of repeated predictions minus 1.
     pub(crate) freedom: u64,
-    /// Mean, rounded once.
+    /// Mean of the repeated predictions, rounded once.
     pub(crate) mean: f64,
-    /// Sample variance, rounded once.
+    /// Sample variance of the repeated predictions, rounded once.
     pub(crate) variance: f64,
-    /// Root of `variance`.
+    /// Sample standard deviation: the square root of `variance`.
     pub(crate) deviation: f64,
-    /// Standard deviation with the divisor n: root of the rounded variance.
+    /// Standard deviation with the divisor n: the square root of that variance, which is rounded once.
     pub(crate) population_deviation: f64,
 }
 
@@ -86,7 +86,7 @@ impl Spread {
     }
 }
 
-/// Spreads of all cells with at least two repeats.
+/// Spreads of the predictions of all cells with at least two repeated presses.
 pub(crate) struct SpreadSums {
     spreads: Vec<Spread>,
     /// Reason for a missing score; `None` if a score is possible.
@@ -111,19 +111,19 @@ impl SpreadSums {
         SpreadSums { spreads, reason }
     }
 
-    /// Number of cells with a spread.
+    /// Number of cells with at least two repeated predictions.
     pub(crate) fn count(&self) -> u64 {
         self.spreads.iter().fold(0, |count, _| count + 1)
     }
 
-    /// Mean of `number` over the cells, rounded once.
+    /// Mean of `number` over the cells with at least two repeated predictions, rounded once.
     pub(crate) fn mean(&self, number: fn(&Spread) -> f64) -> Finished {
         self.defined()?;
         let sum: ExactSum = self.spreads.iter().map(number).collect();
         mean(&sum, self.count())
     }
 
-    /// Pooled standard deviation of the repeats: root of the mean of the cells' rounded variances, weighted by their degrees of freedom.
+    /// Pooled standard deviation of the repeated predictions. Rounded variances of cells are averaged, weighted by their degrees of freedom.
     pub(crate) fn pooled(&self) -> Finished {
         self.defined()?;
         let (mut variances, mut freedom) = (ExactSum::default(), 0_u64);
@@ -134,9 +134,10 @@ impl SpreadSums {
         mean(&variances, freedom).map(f64::sqrt)
     }
 
-    /// Spread of the cell means beyond the scatter of their repeats: √max(0, s_m² − s_r² mean(1 / n_c)).
+    /// Spread of the cell means beyond the scatter of repeated predictions: √max(0, s_m² − s_r² mean(1 / n_c)).
     ///
-    /// s_m is the standard deviation of the cell means, s_r the pooled one of the repeats, and n_c the number of repeats of a cell.
+    /// s_m is the standard deviation of the cell means, and s_r the pooled standard deviation of repeated predictions. n_c is the number of
+    /// predictions in a cell, and the mean is over cells.
     pub(crate) fn signal(&self) -> Finished {
         let (means, repeats) = (self.deviation_of_means()?, self.pooled()?);
         let shares: ExactSum = self
@@ -148,7 +149,7 @@ impl SpreadSums {
         Ok((means * means - by_chance).max(0.0).sqrt())
     }
 
-    /// Sample standard deviation of the cells' rounded means.
+    /// Sample standard deviation of the rounded means of cells.
     fn deviation_of_means(&self) -> Finished {
         self.defined()?;
         let means: Moments = self.spreads.iter().map(|spread| spread.mean).collect();
@@ -168,7 +169,7 @@ fn whole(count: u64) -> f64 {
     count as f64
 }
 
-/// Mean from an exact sum, rounded once.
+/// Mean of `count` values with the exact sum `sum`, rounded once.
 pub(crate) fn mean(sum: &ExactSum, count: u64) -> Result<f64, UndefinedReason> {
     if count == 0 {
         return Err(UndefinedReason::NoRepeatedPress);
