@@ -3,13 +3,13 @@
 use super::nearest::NearestPoints;
 use super::rigid::{Motion, Point};
 
-/// Greatest number of steps, even without convergence.
+/// Greatest number of steps of a registration. After these steps it stops without convergence.
 const MOST_STEPS: u32 = 50;
 
-/// A rigid motion, and the convergence of its search.
+/// Rigid motion that registers two point clouds, and the convergence of its search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Registration {
-    /// Motion from the moving cloud to the other.
+    /// Motion that moves the first cloud onto the second.
     pub(crate) motion: Motion,
     /// True if the last two steps paired the same points, so that further steps change nothing.
     pub(crate) settled: bool,
