@@ -15,8 +15,8 @@ pub(crate) struct Registration {
     pub(crate) settled: bool,
 }
 
-/// Registers `from` to `onto`, starting from the given positions. Each step pairs every point with the nearest point of `onto` and fits the
-/// motion of the original cloud.
+/// Finds the rigid motion of `from` onto `onto`, starting from the given positions. Each step pairs every point of `from` with the nearest point of
+/// `onto`. A step then fits the motion from the given positions to these partners.
 ///
 /// `None` if the pairs do not determine the rotation.
 ///
