@@ -40,8 +40,7 @@ impl Paired<f64> {
         self.reference - self.estimate
     }
 
-    /// Term |y − ŷ| / ((|y| + |ŷ|) / 2 + ε) of sMAPE for the true value y, the prediction ŷ and ε = [`EPSILON`]. Every step is rounded. Two zeros
-    /// give 0.
+    /// Term |y − ŷ| / ((|y| + |ŷ|) / 2 + ε) of sMAPE, with true value y, prediction ŷ and ε = [`EPSILON`]. Every step is rounded. Two zeros give 0.
     #[inline]
     pub fn symmetric_term(self) -> f64 {
         let scale = (self.reference.abs() + self.estimate.abs()) * 0.5 + EPSILON;

@@ -6,7 +6,7 @@ use crate::exact::number_key::ranked;
 
 /// Points sorted by x, for a nearest-point search that skips most points.
 ///
-/// The search compares x to skip points, so all points with one x are visited.
+/// The search skips points by x alone, so points that share one x are all visited.
 ///
 /// ```
 /// use taceva_metrics::NearestPoints;

@@ -9,8 +9,8 @@ pub(crate) type Place = [f64; 2];
 
 /// Direction of the turn at `middle` from `start` to `end`: `Greater` to the left, `Less` to the right, `Equal` on one line.
 ///
-/// For a turn from a over b to c, the direction is the sign of (bx − ax)(cy − ay) − (by − ay)(cx − ax). Rounded arithmetic determines the sign in
-/// nearly every case. Otherwise the six products of the expanded determinant are summed exactly.
+/// For points a, b and c, the direction is the sign of (bx − ax)(cy − ay) − (by − ay)(cx − ax). Rounded arithmetic determines the sign in nearly
+/// every case. Otherwise the six products of the expanded determinant are summed exactly.
 ///
 /// # Reference
 /// Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates (1997), the bound A of `ORIENT2D`.
@@ -18,7 +18,7 @@ pub(crate) fn turn(start: Place, middle: Place, end: Place) -> Ordering {
     /// Bound on the rounding error of the determinant, relative to the size of its products: (3 + 16 ε) ε with ε = 2⁻⁵³.
     const BOUND: f64 = (3.0 + 16.0 * EPSILON) * EPSILON;
     const EPSILON: f64 = f64::EPSILON / 2.0;
-    /// Least size of the products for which underflow cannot change the sign. The error bound ignores underflow.
+    /// Least total size of the products for which underflow cannot change the sign. The error bound ignores underflow.
     const LEAST: f64 = 1e-290;
     let left = (middle[0] - start[0]) * (end[1] - start[1]);
     let right = (middle[1] - start[1]) * (end[0] - start[0]);

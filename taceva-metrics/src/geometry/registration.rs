@@ -15,8 +15,8 @@ pub(crate) struct Registration {
     pub(crate) settled: bool,
 }
 
-/// Finds the rigid motion of `from` onto `onto`, starting from the given positions. Each step pairs every point of `from` with the nearest point of
-/// `onto`. A step then fits the motion from the given positions to these partners.
+/// Finds the rigid motion of `from` onto `onto`, starting from the given positions. Each step pairs every moved point with the nearest point of
+/// `onto`. The step then fits the motion of the original points to these pairs.
 ///
 /// `None` if the pairs do not determine the rotation.
 ///

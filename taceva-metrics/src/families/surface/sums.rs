@@ -19,7 +19,7 @@ pub(crate) struct Press {
     pub(crate) force_n: f64,
 }
 
-/// Counts and exact sums of the compliance Δz / F over the samples in contact, for depth Δz in mm and normal force F in N.
+/// Counts and exact sums of the compliance Δz / F over the samples in contact. Δz is the depth in mm, F the normal force in N.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SurfaceSums {
     pub(crate) n_invalid: u64,
