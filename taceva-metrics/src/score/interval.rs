@@ -114,7 +114,7 @@ pub enum Interval {
         /// Kind of the clusters.
         by: ClusteredBy,
     },
-    /// Interval from the variances between and within clusters. Used for a spread beyond chance and for limits of agreement.
+    /// Interval from the variances between and within clusters, for a spread beyond chance or for limits of agreement.
     Components {
         /// Lower end of the interval, in the unit of the score.
         low: f64,
@@ -210,9 +210,9 @@ impl Interval {
         }
     }
 
-    /// Method in words, with G clusters and B replicates: `jackknife by point_id, G=32`, `jackknife by point_id, G=32, logarithmic` or `Poisson
-    /// bootstrap by point_id (percentile), G=32, B=1000, seed=0`. If every sample is its own cluster, `, samples taken as independent` replaces `
-    /// by point_id`. `None` for [`Interval::Undefined`].
+    /// Method in words, with G clusters and B replicates: `jackknife by point_id, G=32`, `jackknife by point_id, G=32, logarithmic` or
+    /// `Poisson bootstrap by point_id (percentile), G=32, B=1000, seed=0`. If every sample is its own cluster,
+    /// `, samples taken as independent` replaces ` by point_id`. `None` for [`Interval::Undefined`].
     pub fn method(&self) -> Option<String> {
         match self {
             Interval::Jackknife {
