@@ -1,4 +1,4 @@
-//! Points in the plane and in space: exact convex hulls, and registration of clouds.
+//! Points in the plane and in space: exact convex hulls, and registration of point clouds.
 
 mod growing_hull;
 mod hull;

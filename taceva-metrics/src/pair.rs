@@ -1,16 +1,16 @@
-//! Predictions and truths with named roles, because no check of shapes detects swapped arguments.
+//! Pairs of prediction and truth with named fields. A check of lengths cannot detect swapped arguments.
 
 use taceva_core::Batch;
 
 use crate::error::MetricError;
 
-/// Greatest magnitude of a sample's value: sums, differences and means of two such values stay finite.
+/// Greatest magnitude of a valid value. Sums, differences and means of two such values stay finite.
 pub const GREATEST: f64 = taceva_core::MAGNITUDE_MAX;
 
-/// ε of sMAPE, the binary64 nearest to 10⁻⁸, in the unit of the channel. With ε the term of two zeros is 0.
+/// Constant ε in the denominator of sMAPE (symmetric mean absolute percentage error), in the unit of the channel. With ε, two zeros contribute 0.
 pub const EPSILON: f64 = 1e-8;
 
-/// An estimate and its reference: two values, or two columns. A plain pair, which gets no further fields.
+/// A prediction and its true value, or a column of predictions and the column of their true values. A plain pair, which gets no further fields.
 ///
 /// ```
 /// use taceva_metrics::Paired;
@@ -19,9 +19,9 @@ pub const EPSILON: f64 = 1e-8;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Paired<T> {
-    /// ŷ: the prediction of the model.
+    /// Prediction of the model, ŷ in formulas.
     pub estimate: T,
-    /// y: the truth measured by the reference instrument.
+    /// True value, measured by the reference instrument; y in formulas.
     pub reference: T,
 }
 
@@ -34,20 +34,20 @@ impl Paired<f64> {
         })
     }
 
-    /// d = RN(y − ŷ): y − ŷ, rounded to the nearest binary64.
+    /// Difference between true value and prediction, rounded to the nearest binary64.
     #[inline]
     pub fn residual(self) -> f64 {
         self.reference - self.estimate
     }
 
-    /// Term |d| / ((|y| + |ŷ|) / 2 + ε) of sMAPE, rounded at every step; 0 for two zeros, because of ε.
+    /// Term |y − ŷ| / ((|y| + |ŷ|) / 2 + ε) of sMAPE, with true value y, prediction ŷ and ε = [`EPSILON`]. Every step is rounded. Two zeros give 0.
     #[inline]
     pub fn symmetric_term(self) -> f64 {
         let scale = (self.reference.abs() + self.estimate.abs()) * 0.5 + EPSILON;
         self.residual().abs() / scale
     }
 
-    /// True if both magnitudes are at most [`GREATEST`]. Other pairs are counted as invalid and skipped.
+    /// True if the magnitudes of prediction and true value are at most [`GREATEST`]. Metrics count other pairs as invalid and skip them.
     #[inline]
     pub fn is_valid(self) -> bool {
         is_valid(self.estimate) && is_valid(self.reference)
@@ -55,7 +55,7 @@ impl Paired<f64> {
 }
 
 impl Paired<Vec<f64>> {
-    /// Borrows both columns.
+    /// Borrows the columns of predictions and true values as slices.
     pub fn as_slices(&self) -> Paired<&[f64]> {
         Paired {
             estimate: &self.estimate,
@@ -65,7 +65,7 @@ impl Paired<Vec<f64>> {
 }
 
 impl<'a> Paired<&'a [f64]> {
-    /// Two columns of one length.
+    /// Pairs a column of predictions with a column of true values.
     ///
     /// # Errors
     /// [`MetricError::Lengths`] if the lengths differ.
@@ -85,7 +85,7 @@ impl<'a> Paired<&'a [f64]> {
         })
     }
 
-    /// The pairs, row by row.
+    /// Iterates over the pairs of prediction and true value, row by row.
     #[inline]
     pub fn iter(self) -> impl Iterator<Item = Paired<f64>> + 'a {
         let rows = self.estimate.iter().zip(self.reference);
@@ -95,7 +95,7 @@ impl<'a> Paired<&'a [f64]> {
         })
     }
 
-    /// The pairs in blocks of at most `rows`.
+    /// Splits the columns into blocks of at most `rows` rows.
     pub(crate) fn blocks(self, rows: usize) -> impl Iterator<Item = Paired<&'a [f64]>> {
         let blocks = self.estimate.chunks(rows).zip(self.reference.chunks(rows));
         blocks.map(|(estimate, reference)| Paired {

@@ -1,4 +1,4 @@
-//! Scores: values of a report with the data to trust and repeat them.
+//! Scores of metrics: values with units, intervals, counts and warnings.
 
 mod bootstrap_ends;
 pub(crate) mod curve;
@@ -31,10 +31,10 @@ use crate::score::range::Range;
 use crate::score::value::Value;
 use crate::score::verdict_standing::Standing;
 
-/// Nominal coverage of intervals: the share of intervals that contain the truth.
+/// Nominal coverage of confidence intervals: the share of intervals that contain the true score.
 pub(crate) const COVERAGE: f64 = 0.95;
 
-/// Score of a metric on a channel, or on the two channels of a plane.
+/// Score of a metric on a channel, or on the two channels of a plane, such as `Fx` and `Fy`.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Evaluator, Unit};
@@ -48,37 +48,37 @@ pub(crate) const COVERAGE: f64 = 0.95;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Score {
-    /// The value, in `unit`.
+    /// Value of the score, in `unit`.
     pub value: Value,
-    /// The unit of value and interval.
+    /// Unit of the value and of the interval.
     pub unit: Unit,
-    /// Number of samples; for two channels the smaller number.
+    /// Number of samples from which the score is computed; for two channels, the smaller number.
     pub n: u64,
-    /// Number of samples skipped for an unusable value; for two channels the larger number.
+    /// Number of skipped samples, whose values are NaN or too large; for two channels, the larger number.
     pub n_invalid: u64,
     /// 95 % confidence interval of the value, from its variation between clusters (contact points).
     pub interval: Interval,
-    /// Name and version of the definition: `mae/1`.
+    /// Name and version of the metric's definition, such as `mae/1`.
     pub definition: &'static str,
-    /// The constants of the definition.
+    /// Constants of the metric's definition, such as a tolerance.
     pub parameters: Vec<Parameter>,
-    /// Further counts: samples outside the footprint, bins with a value.
+    /// Further counts, such as samples outside the footprint or bins with a value.
     pub counts: Vec<Count>,
-    /// Warnings for the reader.
+    /// Warnings about the score.
     pub flags: Vec<Flag>,
-    /// Standing of the score in verdicts.
+    /// Standing of the score: whether verdicts include it, or the reason for its exclusion.
     pub standing: Standing,
-    /// Share of predictions beyond the bounds of the model, for the worst channel. `None` if the score uses no predictions or the bounds are
-    /// unknown.
+    /// Share of predictions beyond the bounds (trained range) of the model; for several channels, the greatest share. `None` if the score uses no
+    /// predictions or the bounds are unknown.
     pub bounded_share: Option<f64>,
-    /// Source channels; empty for a score of a single channel.
+    /// Names of the channels from which the score is computed; empty for a score of a single channel.
     pub of: Vec<String>,
     /// Further values of the same metric: other variants of its definition, maps and curves.
     pub variants: Vec<Variant>,
 }
 
 impl Score {
-    /// The variant called `name`: `slope`, `map`; `None` if the score lacks the variant.
+    /// Variant called `name`, such as `slope` or `map`; `None` if the score lacks the variant.
     pub fn variant(&self, name: &str) -> Option<&Variant> {
         self.variants.iter().find(|variant| variant.name == name)
     }
@@ -90,7 +90,7 @@ impl Score {
     }
 }
 
-/// Another value of the same metric and channel, with its own name.
+/// Further value of a score: another variant of the metric's definition, a map or a curve.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Evaluator};
@@ -104,15 +104,16 @@ impl Score {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Variant {
-    /// Name within the metric: `slope`, `within`, `map`.
+    /// Name of the variant, unique within the metric, such as `slope`, `within` or `map`.
     pub name: Cow<'static, str>,
-    /// The value, in `unit`.
+    /// Value of the variant, in `unit`.
     pub value: Value,
-    /// The unit of value and interval.
+    /// Unit of the value and of the interval.
     pub unit: Unit,
-    /// Range of possible values.
+    /// Range of the possible values of the variant.
     pub range: Range,
-    /// 95 % confidence interval, from the variation between clusters (contact points); `None` if the kind of value has no interval, such as a map.
+    /// 95 % confidence interval, from the variation between clusters (contact points). `None` for kinds of values without an interval, such as a
+    /// map.
     pub interval: Option<Interval>,
 }
 
@@ -137,13 +138,13 @@ impl Variant {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Count {
-    /// Name of the count: `outside`, `bins_used`.
+    /// Name of the count, such as `outside` or `bins_used`.
     pub name: &'static str,
     /// Number of items.
     pub value: u64,
 }
 
-/// Named constant of a definition. A plain value, which gets no further fields.
+/// Named constant of a metric's definition. A plain value, which gets no further fields.
 ///
 /// ```
 /// use taceva_metrics::{EPSILON, Parameter};
@@ -151,8 +152,8 @@ pub struct Count {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
-    /// Name of the constant: `eps`, `gate`.
+    /// Name of the constant, such as `eps` or `gate`.
     pub name: &'static str,
-    /// Value, in the unit of the channel.
+    /// Value of the constant: a number of items, or a quantity in the unit of the channel or of the name, such as `tolerance_mm`.
     pub value: f64,
 }

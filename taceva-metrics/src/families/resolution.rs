@@ -17,19 +17,19 @@ use crate::exact::merge::keyed;
 use crate::exact::record::Record;
 use histogram::Histogram;
 
-/// Family of histograms of spacing errors.
+/// Metric family that counts the errors of predicted grating spacings.
 pub(crate) static KIND: FamilyKind = FamilyKind::new("taceva.resolution/1", |plan| {
     erased(Resolution::for_plan(plan))
 });
 
-/// Histograms of spacing errors, by kind of grating.
+/// Family that counts spacing errors for each kind of grating.
 pub(crate) struct Resolution {
     tolerance: Nanometre,
     by_point: bool,
 }
 
 impl Resolution {
-    /// The family for `plan`.
+    /// Creates the family for the settings and fields of `plan`.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Resolution {
         Resolution {
             tolerance: plan.settings().resolution_tolerance,
@@ -42,7 +42,7 @@ impl Resolution {
     }
 }
 
-/// Spacing in whole nanometres, exact in binary64; `None` for other numbers.
+/// Converts a spacing that is a whole number of nanometres, up to 2⁵³, to an integer. `None` for any other number.
 fn spacing(value: f64) -> Option<i64> {
     const GREATEST: f64 = 9_007_199_254_740_992.0;
     #[expect(
@@ -90,7 +90,8 @@ impl Family for Resolution {
         });
     }
 
-    /// The clusters are boards, which are pressed many times. A board is identified by contact point, or else by grating.
+    /// Clusters of the samples: boards (specimens with a grating), each pressed many times. The contact point identifies a board, or else the kind
+    /// and spacing of its grating.
     fn clusters<'a>(&self, batch: &'a Batch) -> Option<Cow<'a, Labels>> {
         if self.by_point {
             return batch.points().map(Cow::Borrowed);
@@ -138,7 +139,7 @@ impl Family for Resolution {
     }
 }
 
-/// Name of each row's board by its grating: `line:350000`. Rows without a grating share the name `none`.
+/// Name of each row's board: kind of its grating and spacing in nm, such as `line:350000`. Rows without a grating share the name `none`.
 fn boards(batch: &Batch) -> Labels {
     let (kinds, spacings) = (batch.labels(Field::Kind), batch.numbers(Field::Spacing));
     let mut boards = Labels::default();

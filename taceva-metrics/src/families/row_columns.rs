@@ -4,15 +4,15 @@ use std::ops::Range;
 
 use taceva_core::Column;
 
-/// Values of the last gathered rows. The memory is reused.
+/// Values of the most recently gathered rows. The next call reuses the memory.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Gathered {
     columns: Vec<Vec<f64>>,
 }
 
 impl Gathered {
-    /// Values of `columns` in the ascending `rows`, or in all rows for `None`. Rows with a missing value are skipped. Adjacent
-    /// rows are borrowed from the columns without a copy.
+    /// Values of each of `columns` in `rows`, which ascend, or in all rows if `rows` is `None`. Rows with a missing value are skipped. Consecutive
+    /// rows without missing values are borrowed from the columns.
     pub(crate) fn rows<'a>(
         &'a mut self,
         columns: &[&'a Column],

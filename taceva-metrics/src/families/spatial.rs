@@ -28,11 +28,11 @@ use crate::score::value::Value;
 use crate::score::{Count, Parameter, Variant};
 use sums::{BINS, Reach, SpatialSums};
 
-/// Family of errors by distance and depth.
+/// Metric family that groups errors by distance from the sensor's axis and by depth.
 pub(crate) static KIND: FamilyKind =
     FamilyKind::new("taceva.spatial/1", |plan| erased(Spatial::for_plan(plan)?));
 
-/// Sums of the errors of each channel by distance and depth.
+/// Family that sums the errors of each channel by distance from the sensor's axis and by depth.
 pub(crate) struct Spatial {
     settings: Settings,
     footprint: String,
@@ -43,7 +43,7 @@ pub(crate) struct Spatial {
 }
 
 impl Spatial {
-    /// The family for `plan`; `None` without a needed channel or footprint.
+    /// Creates the family for `plan`. `None` without the channels of the place (`Px`, `Py`, `Pz`), a footprint or its greatest depth.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Spatial> {
         let footprint = plan.facts().footprint?;
         let channels = plan.channels();
@@ -58,7 +58,7 @@ impl Spatial {
         })
     }
 
-    /// Mean absolute error at the centre of each bin.
+    /// Curve of the mean absolute error in each bin, over the centres of the bins in mm. The last bin ends at `extent`.
     fn curve(&self, bins: &SortedMap<u8, Moments>, extent: Nanometre) -> Value {
         let of = |bin: u8| {
             bins.get(&bin)
@@ -133,7 +133,7 @@ impl Family for Spatial {
         robustness::robustness(sums, &self.settings, output.unit)
     }
 
-    /// Interval of the excess, from the variances between and within contact points.
+    /// Interval of the variation of errors beyond chance, from the variances between and within contact points.
     fn intervals(
         &self,
         _metric: &Metric,

@@ -26,21 +26,21 @@ use crate::score::value::{InapplicableReason, UndefinedReason, Value};
 use crate::score::{Count, Parameter, Variant};
 use sums::{NORMAL_ONLY, Place, Press, SurfaceSums};
 
-/// Family of the compliance of the surface.
+/// Metric family of surface compliance: indentation depth over normal force.
 pub(crate) static SURFACE: FamilyKind =
     FamilyKind::new("taceva.surface/1", |plan| erased(Surface::for_plan(plan)?));
 
-/// Formula of a metric of this family.
+/// Formula of a metric that is computed from sums of surface compliance.
 pub(crate) struct SurfaceFormula {
-    /// Source channels of the score.
+    /// Names of the channels from which the score is computed.
     pub(crate) of: &'static [&'static str],
     /// Number of samples that the score uses.
     pub(crate) count: fn(&SurfaceSums) -> u64,
-    /// Computation of the numbers.
+    /// Computes the score and its variants.
     pub(crate) finish: fn(&SurfaceSums, &Settings) -> Numbers,
-    /// Computation of the variants that depend on clusters, with their intervals.
+    /// Computes the variants that need the sums of each cluster, with their intervals.
     pub(crate) of_clusters: Option<fn(&[&SurfaceSums], &Settings) -> Intervals>,
-    /// True if the score includes the mean of each cell.
+    /// True if the score includes a map with the mean compliance of each cell.
     pub(crate) has_map: bool,
 }
 
@@ -48,7 +48,7 @@ fn formula(metric: &Metric) -> Option<&'static SurfaceFormula> {
     metric.formula.get()
 }
 
-/// Sums of the surface compliance, by cell if a footprint is declared.
+/// Family that sums the surface compliance, also for each cell of a grid if a footprint is declared.
 pub(crate) struct Surface {
     settings: Settings,
     grid: Option<Grid>,
@@ -59,7 +59,7 @@ pub(crate) struct Surface {
 }
 
 impl Surface {
-    /// The family for `plan`; `None` without depth or force.
+    /// Creates the family for `plan`; `None` without the channels of depth (`Pz`) and normal force (`Fz`).
     pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Surface> {
         let position = |name: &'static str| plan.channels().position(name).ok_or(name);
         let both = |[first, second]: [&'static str; 2]| Ok([position(first)?, position(second)?]);
@@ -75,7 +75,7 @@ impl Surface {
         })
     }
 
-    /// Place of the sample at `row`; `None` if a coordinate is not a usable number. A missing coordinate gives [`Place::Unknown`].
+    /// Place of the sample at `row`; `None` if a coordinate is NaN or too large. Without a grid or a coordinate, the place is [`Place::Unknown`].
     fn place(&self, batch: &Batch, row: usize) -> Option<Place> {
         let (Some(grid), Some([x, y])) = (&self.grid, self.place) else {
             return Some(Place::Unknown);
@@ -89,7 +89,7 @@ impl Surface {
         Some(grid.cell(x_mm, y_mm).map_or(Place::Outside, Place::Cell))
     }
 
-    /// True if the sample at `row` has no shear: both shear forces are measured and below the gate.
+    /// True if both shear forces of the sample at `row` are measured and below the contact threshold.
     fn without_shear(&self, batch: &Batch, row: usize) -> bool {
         let small = |axis: usize| {
             let force = batch.truth(axis).get(row);

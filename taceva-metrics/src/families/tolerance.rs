@@ -19,9 +19,9 @@ use crate::score::value::{Finished, InapplicableReason, UndefinedReason, Value};
 use crate::score::verdict_rule::{OF_CONSTANT, VerdictRule};
 use crate::score::{Parameter, Variant};
 
-/// Tolerances in thousandths of the unit's [`step`]: 0.01 to 2 mm or N, 0.1 to 20 degrees or N mm.
+/// Tolerances in thousandths of the unit's [`step`]. They are 0.01 to 2 mm or N, and 0.1 to 20 degrees or N mm.
 const TOLERANCES: [i64; 8] = [100, 200, 500, 1000, 2000, 5000, 10_000, 20_000];
-/// Index of the score's tolerance: half a step, 0.05 mm or N.
+/// Index of the tolerance of the score: 0.05 mm or N, 0.5 degrees or N mm.
 const HEADLINE: usize = 2;
 
 pub(crate) static TOLERANCE: Metric = Metric {
@@ -53,13 +53,13 @@ fn headline(unit: Unit) -> Vec<Parameter> {
     tolerance.into_iter().collect()
 }
 
-/// Tolerances of a unit in millionths, ascending; `None` for a unit without a step.
+/// Tolerances for `unit` in millionths of it, ascending; `None` if no tolerances are defined for the unit.
 fn tolerances(unit: Unit) -> Option<[i64; 8]> {
     let step = step(unit)?;
     Some(TOLERANCES.map(|thousandths| step / 1000 * thousandths))
 }
 
-/// Family of magnitudes of errors.
+/// Metric family that counts errors by magnitude.
 pub(crate) static KIND: FamilyKind = FamilyKind {
     clusters_of_plan: true,
     ..FamilyKind::new("taceva.tolerances/1", |plan| {
@@ -67,15 +67,16 @@ pub(crate) static KIND: FamilyKind = FamilyKind {
     })
 };
 
-/// Magnitudes of errors by tolerance.
+/// Family that counts the errors of each channel by tolerance.
 pub(crate) struct Tolerances {
-    /// Constant prediction of each channel, as for skill, in millionths of the unit; `None` if the training part is unknown.
+    /// Constant prediction with which skill compares the model, for each channel, in millionths of the unit. `None` if the training part is
+    /// unknown.
     constants: Vec<Option<i64>>,
     gathered: Gathered,
 }
 
 impl Tolerances {
-    /// Family with the channels and constants of `plan`.
+    /// Creates the family for the channels and constants of `plan`.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Tolerances {
         let channels = plan.channels().iter();
         let constants = channels.map(|channel| plan.constant(channel.name()).and_then(millionths));
@@ -85,7 +86,8 @@ impl Tolerances {
         }
     }
 
-    /// Share that the constants of the channels at `positions` reach, for a plane the mean of both axes; `None` if a constant is unknown.
+    /// Share of true values within the tolerance of a constant prediction; for two channels, the mean of both shares. `None` if a constant is
+    /// unknown.
     fn of_constant(&self, positions: &[usize], parts: &[&ErrorCounts]) -> Option<f64> {
         let share = |(position, sums): (&usize, &&ErrorCounts)| {
             let of_constant = sums.of_constant.filter(|_| sums.n > 0)?;
@@ -101,7 +103,7 @@ impl Tolerances {
     }
 }
 
-/// Index of the least of `tolerances` that is at least `error`; the number of tolerances if no tolerance is.
+/// Index of the smallest tolerance that is at least `error`; the number of tolerances if `error` exceeds all of them.
 #[inline]
 fn class(error: i64, tolerances: &[i64; 8]) -> usize {
     // Bisection without branches, as the class of an error is unpredictable.
@@ -111,27 +113,27 @@ fn class(error: i64, tolerances: &[i64; 8]) -> usize {
     class + usize::from(error > tolerances[7])
 }
 
-/// Counts of the errors of one channel by tolerance.
+/// Counts of the errors of one channel, grouped by tolerance.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ErrorCounts {
     n: u64,
     n_invalid: u64,
-    /// Number of errors in each class: above the previous tolerance, up to this tolerance.
+    /// Number of errors for each tolerance: above the previous tolerance, up to this tolerance.
     classes: [u64; TOLERANCES.len()],
-    /// Counts of the channel's constant; `None` if the constant is unknown, or if samples have models with different constants.
+    /// Count for the constant prediction of the channel. `None` if the constant is unknown, or if samples have models with different constants.
     of_constant: Option<OfConstant>,
 }
 
-/// Number of truths within the score's tolerance of a constant.
+/// Number of true values within the score's tolerance of a constant prediction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct OfConstant {
-    /// Constant, in millionths of the unit.
+    /// Constant prediction, in millionths of the unit.
     constant: i64,
     met: u64,
 }
 
 impl OfConstant {
-    /// Sum of both counts; `None` for different constants.
+    /// Adds the count of `other`; `None` if both have different constants.
     fn and(self, other: OfConstant) -> Option<OfConstant> {
         (self.constant == other.constant).then(|| OfConstant {
             met: self.met.saturating_add(other.met),

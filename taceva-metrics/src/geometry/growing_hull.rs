@@ -4,12 +4,12 @@ use super::hull::Hull;
 use super::hull_core::Core;
 use super::orientation::Place;
 
-/// Least number of points for which a core saves time.
+/// Least number of points for which a core, which tests new points fast, saves time.
 const LEAST_POINTS: u64 = 64;
 
-/// Hull with a core that contains most new points.
+/// Convex hull with a core: an inner region that contains most new points, which can then be skipped.
 ///
-/// The core is inside the hull of some of the points, and so inside the hull of all. The core affects only which points are examined, not the hull.
+/// The core is computed from earlier points, so the hull of all points contains it. The core never changes the hull.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct GrowingHull {
     hull: Hull,
@@ -60,7 +60,7 @@ impl From<Hull> for GrowingHull {
     }
 }
 
-/// Equality of hulls. Equal sets of points have equal hulls.
+/// Compares only the hulls. Equal sets of points have equal hulls.
 impl PartialEq for GrowingHull {
     fn eq(&self, other: &GrowingHull) -> bool {
         self.hull == other.hull

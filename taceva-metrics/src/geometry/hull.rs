@@ -18,7 +18,7 @@ pub(crate) struct Hull {
 }
 
 impl Hull {
-    /// Hull of `points` with finite coordinates.
+    /// Convex hull of `points`, whose coordinates must be finite.
     pub(crate) fn of(points: impl IntoIterator<Item = Place>) -> Hull {
         // Zeros get one sign, so that equal sets have equal hulls.
         let plain = |[x, y]: Place| [x + 0.0, y + 0.0];
@@ -35,7 +35,7 @@ impl Hull {
         Hull { corners }
     }
 
-    /// Reads the corners of a state, x, y, x, y, ….
+    /// Reads a hull from a state, which lists the coordinates of the corners: x, y, x, y, ….
     ///
     /// # Errors
     /// A message if the values are not the ordered corners of a hull.
@@ -50,12 +50,12 @@ impl Hull {
         same.ok_or_else(|| "expected the corners of a convex hull, anticlockwise".to_owned())
     }
 
-    /// Corners in order.
+    /// Corners, anticlockwise from the leftmost corner.
     pub(crate) fn corners(&self) -> &[Place] {
         &self.corners
     }
 
-    /// True if there are no points.
+    /// True if the hull has no points.
     pub(crate) fn is_empty(&self) -> bool {
         self.corners.is_empty()
     }
@@ -70,13 +70,13 @@ impl Hull {
         self.extend(other.corners.iter().copied());
     }
 
-    /// Area, rounded once; 0 for a flat hull.
+    /// Area of the hull, rounded once; 0 if all points are on one line.
     pub(crate) fn area(&self) -> f64 {
         // Halving is exact except for subnormal areas, whose last bit does not matter.
         doubled_area(&self.corners).to_f64() * 0.5
     }
 
-    /// Least and greatest value along `axis`, 0 or 1; `None` without points.
+    /// Least and greatest coordinate along `axis`, 0 for x or 1 for y; `None` without points.
     pub(crate) fn extent(&self, axis: usize) -> Option<[f64; 2]> {
         let along = || self.corners.iter().map(|corner| corner[axis]);
         let low = along().min_by(f64::total_cmp)?;
@@ -103,7 +103,7 @@ impl Hull {
     }
 }
 
-/// Half of the hull of sorted points: the chain of left turns.
+/// Lower or upper half of the hull of sorted points: the corners at which the outline turns left.
 ///
 /// # Reference
 /// Andrew, Another efficient algorithm for convex hulls in two dimensions (1979).
@@ -121,7 +121,7 @@ fn chain(points: impl Iterator<Item = Place>) -> Vec<Place> {
     chain
 }
 
-/// Order by x, then by y. Both zeros are equal.
+/// Orders points by x, then by y. Zero and negative zero are equal.
 fn compare(left: &Place, right: &Place) -> Ordering {
     let along = |axis: usize| (left[axis] + 0.0).total_cmp(&(right[axis] + 0.0));
     along(0).then_with(|| along(1))
@@ -142,7 +142,7 @@ mod tests {
         }
     }
 
-    /// Points on a coarse grid, of any magnitude, so that many share a line.
+    /// Points on a coarse grid, so that many share a line, and points of any magnitude.
     fn points() -> impl Strategy<Value = Vec<Place>> {
         let coordinate = prop_oneof![
             6 => (-4_i32..5).prop_map(|step| f64::from(step) * 0.1),

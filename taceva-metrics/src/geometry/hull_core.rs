@@ -1,4 +1,4 @@
-//! Core of a hull: an interior region with a fast test for points.
+//! Core of a convex hull: a region inside the hull, with a fast test for points in it.
 
 use std::cmp::Ordering;
 
@@ -6,24 +6,24 @@ use super::hull::Hull;
 use super::orientation::{Place, turn};
 use taceva_core::whole_size;
 
-/// Number of stretches of x. Fewer stretches make the core smaller; more need more time and cache.
+/// Number of stretches (intervals of x) of a core. Fewer stretches make the core smaller; more need more time and cache.
 const STRETCHES: u32 = 64;
 
-/// Overlap of neighbouring stretches, as a share of their width, because rounding may assign a point to the next stretch.
+/// Overlap of neighbouring stretches (intervals of x), as a share of their width. Rounding may assign a point to the next stretch.
 const OVERLAP: f64 = 1.0 / 1024.0;
 
-/// Bound on the rounding error of a height, as a share of the greatest height.
+/// Bound on the rounding error of a height, which is y minus a slope times x. The bound is a share of the greatest height.
 const MARGIN: f64 = 1.0 / 35_184_372_088_832.0;
 
-/// Lower and upper height of the core over each stretch of x. A multiple of x is subtracted from y, which levels the hull.
+/// Core of a hull: a lower and an upper height for each stretch (interval of x). A height is y minus a slope times x, so that the hull is level.
 #[derive(Clone, Debug)]
 pub(crate) struct Core {
     slope: f64,
     ends: [f64; 2],
     stretches_per_x: f64,
-    /// Lower and upper height of each stretch. Points between them are inside; a stretch whose lower height exceeds the upper contains no core.
+    /// Lower and upper height of the core in each stretch. The core does not reach into a stretch whose lower height exceeds the upper.
     between: Vec<[f64; 2]>,
-    /// Outline of the hull.
+    /// Lower and upper half of the outline of the hull.
     chains: [Vec<Place>; 2],
 }
 
@@ -82,7 +82,7 @@ impl Core {
 }
 
 impl Core {
-    /// True if the point at `place` is in the hull or on its edge. The test compares the point with the edges above and below.
+    /// True if the point at `place` is in the hull or on its edge. The test compares the point with the hull's edges above and below the point.
     pub(crate) fn outline_holds(&self, place: Place) -> bool {
         let [first, last] = self.ends;
         let along = |chain: &[Place]| {
@@ -116,7 +116,7 @@ fn chains(corners: &[Place]) -> Option<[Vec<Place>; 2]> {
     Some([corners[..=lower_end].to_vec(), upper])
 }
 
-/// Heights along a chain, evaluated from left to right.
+/// Heights of the lower or upper half of a hull, read at places from left to right.
 struct Heights {
     corners: Vec<Place>,
     at: usize,

@@ -1,12 +1,12 @@
-//! Search for the nearest of many points, the first in case of a tie.
+//! Search for the point nearest to a place. The first of equally near points is found.
 
 use super::rigid::Point;
 
 use crate::exact::number_key::ranked;
 
-/// Points sorted for a nearest-point search that skips most points.
+/// Points sorted by x, for a nearest-point search that skips most points.
 ///
-/// The search leaves out points by their x alone. Points that share one x are all visited.
+/// The search skips points by x alone, so points that share one x are all visited.
 ///
 /// ```
 /// use taceva_metrics::NearestPoints;
@@ -21,7 +21,7 @@ pub struct NearestPoints {
     sorted: Vec<(Point, usize)>,
 }
 
-/// Nearest point of a search.
+/// Point that a nearest-point search found.
 ///
 /// ```
 /// use taceva_metrics::NearestPoints;
@@ -31,16 +31,16 @@ pub struct NearestPoints {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Nearest {
-    /// Index of the point.
+    /// Index of the point in the given order.
     pub index: usize,
     /// Coordinates of the point.
     pub point: [f64; 3],
-    /// Squared distance, as the rounded sum of three rounded squares.
+    /// Squared distance from the searched place, as the rounded sum of three rounded squares.
     pub squared: f64,
 }
 
 impl NearestPoints {
-    /// Sorts the points. Of equally near points, the search returns the first in the given order.
+    /// Sorts `points` for searches. Of equally near points, a search returns the first in the given order.
     pub fn new(points: impl IntoIterator<Item = [f64; 3]>) -> NearestPoints {
         let points: Vec<Point> = points.into_iter().collect();
         let order = ranked(points.len(), &|left, right| {
@@ -73,7 +73,7 @@ impl NearestPoints {
     }
 }
 
-/// Replaces `best` if `point` is nearer. Returns true if points further along x can still be as near.
+/// Replaces `best` if `point` is nearer to `place`. Returns true if points further along x can be as near as `best`.
 fn closer(best: &mut Option<Nearest>, place: Point, point: Point, index: usize) -> bool {
     let [x, y, z]: Point = std::array::from_fn(|axis| point[axis] - place[axis]);
     let along = x * x;

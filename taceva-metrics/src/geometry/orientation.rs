@@ -7,19 +7,18 @@ use crate::exact::ExactSum;
 /// A point in the plane with finite coordinates.
 pub(crate) type Place = [f64; 2];
 
-/// Turn from `start` over `middle` to `end`: `Greater` to the left, `Less` to the right, `Equal` on one line.
+/// Direction of the turn at `middle` from `start` to `end`: `Greater` to the left, `Less` to the right, `Equal` on one line.
 ///
-/// The result is the sign of (bx − ax)(cy − ay) − (by − ay)(cx − ax) for a turn from a over b to c. Rounded arithmetic determines the sign in
-/// nearly every case. Otherwise the six products of the expanded determinant are summed exactly.
+/// For points a, b and c, the direction is the sign of (bx − ax)(cy − ay) − (by − ay)(cx − ax). Rounded arithmetic determines the sign in nearly
+/// every case. Otherwise the six products of the expanded determinant are summed exactly.
 ///
 /// # Reference
-/// Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates (1997), the bound A of
-/// `ORIENT2D`.
+/// Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates (1997), the bound A of `ORIENT2D`.
 pub(crate) fn turn(start: Place, middle: Place, end: Place) -> Ordering {
-    /// Bound on the relative rounding error of the turn: (3 + 16 ε) ε, ε = 2⁻⁵³.
+    /// Bound on the rounding error of the determinant, relative to the size of its products: (3 + 16 ε) ε with ε = 2⁻⁵³.
     const BOUND: f64 = (3.0 + 16.0 * EPSILON) * EPSILON;
     const EPSILON: f64 = f64::EPSILON / 2.0;
-    /// Least product that cannot have lost bits by underflow, which the bound ignores.
+    /// Least total size of the products for which underflow cannot change the sign. The error bound ignores underflow.
     const LEAST: f64 = 1e-290;
     let left = (middle[0] - start[0]) * (end[1] - start[1]);
     let right = (middle[1] - start[1]) * (end[0] - start[0]);
@@ -31,7 +30,7 @@ pub(crate) fn turn(start: Place, middle: Place, end: Place) -> Ordering {
     exact_turn(start, middle, end)
 }
 
-/// Sign of the doubled signed area of the triangle, computed exactly.
+/// Sign of twice the signed area of the triangle `start`, `middle`, `end`, computed exactly.
 fn exact_turn(start: Place, middle: Place, end: Place) -> Ordering {
     let mut determinant = ExactSum::default();
     for (from, to) in [(start, middle), (middle, end), (end, start)] {
@@ -41,7 +40,7 @@ fn exact_turn(start: Place, middle: Place, end: Place) -> Ordering {
     sign(&determinant)
 }
 
-/// Exact doubled signed area of the polygon through `corners`; positive for anticlockwise order.
+/// Twice the signed area of the polygon through `corners`, exact; positive for anticlockwise order.
 pub(crate) fn doubled_area(corners: &[Place]) -> ExactSum {
     let mut area = ExactSum::default();
     let next = corners.iter().cycle().skip(1);
@@ -52,7 +51,7 @@ pub(crate) fn doubled_area(corners: &[Place]) -> ExactSum {
     area
 }
 
-/// Sign of a sum, as its order against zero.
+/// Sign of `sum`: `Less` for negative, `Equal` for zero, `Greater` for positive.
 pub(crate) fn sign(sum: &ExactSum) -> Ordering {
     let form = sum.to_canonical();
     match (form.digits().is_empty(), form.is_negative()) {

@@ -3,20 +3,20 @@
 use super::nearest::NearestPoints;
 use super::rigid::{Motion, Point};
 
-/// Greatest number of steps, even without convergence.
+/// Greatest number of steps of a registration. After these steps it stops without convergence.
 const MOST_STEPS: u32 = 50;
 
-/// A rigid motion, and the convergence of its search.
+/// Rigid motion that registers two point clouds, and the convergence of its search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Registration {
-    /// Motion from the moving cloud to the other.
+    /// Motion that moves the first cloud onto the second.
     pub(crate) motion: Motion,
     /// True if the last two steps paired the same points, so that further steps change nothing.
     pub(crate) settled: bool,
 }
 
-/// Registers `from` to `onto`, starting from the given positions. Each step pairs every point with the nearest point of `onto` and fits the
-/// motion of the original cloud.
+/// Finds the rigid motion of `from` onto `onto`, starting from the given positions. Each step pairs every moved point with the nearest point of
+/// `onto`. The step then fits the motion of the original points to these pairs.
 ///
 /// `None` if the pairs do not determine the rotation.
 ///

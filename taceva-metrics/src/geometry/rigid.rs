@@ -1,4 +1,4 @@
-//! Rigid motion that minimises the distance between two clouds of paired points.
+//! Rigid motion that minimises the squared distances between the paired points of two clouds.
 
 use crate::exact::number_key::ranked;
 
@@ -19,21 +19,21 @@ impl Motion {
         shift: [0.0; 3],
     };
 
-    /// Moves `point`.
+    /// Returns `point` after the motion.
     pub(crate) fn apply(&self, point: Point) -> Point {
         let turned = turned(&self.rotation, point);
         std::array::from_fn(|axis| turned[axis] + self.shift[axis])
     }
 
-    /// Motion of `from` that minimises the sum of squared distances to the points of `onto`, paired by index.
+    /// Motion that moves the points `from` nearest to the points `onto`, paired by index: it minimises the sum of squared distances.
     ///
     /// `None` if the points do not determine the rotation: fewer than three points, or all points on one line.
     ///
     /// # Shapes
-    /// `from`, `onto`: equal length.
+    /// `from` and `onto` have equal length.
     /// # Reference
-    /// The problem is Kabsch's (1976). The solution is the unit quaternion of Horn, Closed-form solution of absolute orientation
-    /// using unit quaternions (1987), which excludes reflections.
+    /// The problem is Kabsch's (1976). The solution is the unit quaternion of Horn, Closed-form solution of absolute orientation using unit
+    /// quaternions (1987), which excludes reflections.
     pub(crate) fn between(from: &[Point], onto: &[Point]) -> Option<Motion> {
         let (from_centre, onto_centre) = (centre(from)?, centre(onto)?);
         let mut products = [[0.0; 3]; 3];
@@ -51,7 +51,8 @@ impl Motion {
     }
 }
 
-/// Horn's symmetric matrix, whose leading eigenvector is the quaternion of the rotation; `products[a][b]` = Σ from_a onto_b.
+/// Symmetric matrix of Horn, whose leading eigenvector is the quaternion of the rotation. `products[a][b]` is the sum over the pairs of axis a of
+/// the moved point times axis b of its partner.
 fn quaternion_form(products: &[[f64; 3]; 3]) -> [[f64; 4]; 4] {
     let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = *products;
     [
@@ -62,12 +63,12 @@ fn quaternion_form(products: &[[f64; 3]; 3]) -> [[f64; 4]; 4] {
     ]
 }
 
-/// Eigenvector of the greatest eigenvalue, by Jacobi rotations; `None` if the next eigenvalue is nearly as great.
+/// Eigenvector of `matrix` for its greatest eigenvalue, by Jacobi rotations. `None` if the second eigenvalue is nearly as great.
 fn leading_vector(mut matrix: [[f64; 4]; 4]) -> Option<[f64; 4]> {
-    /// Number of sweeps over all pairs. Convergence is quadratic, so about six sweeps are enough.
+    /// Number of sweeps of Jacobi rotations over all pairs of rows. Convergence is quadratic, so about six sweeps are enough.
     const SWEEPS: usize = 20;
-    /// Least relative gap between the two greatest eigenvalues. For points on one line their gap is only rounding, and a smaller
-    /// gap determines no direction.
+    /// Least relative gap between the two greatest eigenvalues. For points on one line the gap is only rounding error, so the rotation is
+    /// undetermined.
     const OPEN: f64 = 1e-12;
     let mut vectors = [[0.0; 4]; 4];
     for (place, vector) in vectors.iter_mut().enumerate() {
@@ -89,7 +90,7 @@ fn leading_vector(mut matrix: [[f64; 4]; 4]) -> Option<[f64; 4]> {
     determined.then(|| vectors.map(|row| row[first]))
 }
 
-/// Jacobi rotation that makes the entry at (`low`, `high`) zero.
+/// Applies the Jacobi rotation that makes the entry of `matrix` at (`low`, `high`) zero.
 fn clear(matrix: &mut [[f64; 4]; 4], vectors: &mut [[f64; 4]; 4], low: usize, high: usize) {
     let entry = matrix[low][high];
     if entry.abs() <= f64::MIN_POSITIVE {

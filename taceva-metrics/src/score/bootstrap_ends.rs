@@ -1,4 +1,4 @@
-//! Computes interval ends from bootstrap replicates.
+//! Methods that compute the ends of an interval from bootstrap replicates.
 
 use std::fmt;
 
@@ -10,9 +10,9 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BootstrapEnds {
-    /// The k-th and the (B + 1 − k)-th of B sorted replicates, with k = ⌊(B + 1) / 40⌋. Ends are asymmetric for skewed scores.
+    /// Percentiles: the k-th smallest and the k-th greatest of B replicates, with k = ⌊(B + 1) / 40⌋. Skewed scores get asymmetric ends.
     Percentile,
-    /// Value ± t(G − 1) standard deviations of the replicates, on an unbounded scale.
+    /// Value ± t standard deviations of the replicates, on an unbounded scale. t is Student's t with one degree of freedom fewer than clusters.
     Normal,
 }
 

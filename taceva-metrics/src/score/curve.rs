@@ -2,7 +2,7 @@
 
 use taceva_core::Unit;
 
-/// Values at ascending levels. A missing value is `None`, never a placeholder.
+/// Values at ascending levels of another quantity. A missing value is `None`, never a placeholder.
 ///
 /// # Shapes
 /// `x`, `values` and `counts` have equal length, and so has `band` if present.
@@ -18,7 +18,7 @@ use taceva_core::Unit;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Curve {
-    /// The levels.
+    /// Levels of the other quantity, ascending.
     pub x: Vec<f64>,
     /// The unit of the levels.
     pub x_unit: Unit,
@@ -26,7 +26,7 @@ pub struct Curve {
     pub values: Vec<Option<f64>>,
     /// Number of samples of each value.
     pub counts: Vec<u64>,
-    /// Lower and upper curve around the values, with a meaning that the metric defines; `None` without a band.
+    /// Lower and upper curve around the values, as the metric defines them; `None` without a band.
     pub band: Option<Band>,
 }
 
@@ -42,7 +42,7 @@ impl Curve {
         }
     }
 
-    /// The same curve within `band`.
+    /// Returns the curve with `band` around its values.
     #[must_use]
     pub fn with_band(self, band: impl Into<Option<Band>>) -> Curve {
         Curve {
@@ -52,7 +52,7 @@ impl Curve {
     }
 }
 
-/// Lower and upper curve around a third curve. A plain pair: it gets no further fields.
+/// Lower and upper curve around the values of a [`Curve`]. A plain pair: it gets no further fields.
 ///
 /// ```
 /// use taceva_metrics::Band;
@@ -61,8 +61,8 @@ impl Curve {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Band {
-    /// Lower curve.
+    /// Values of the lower curve, one per level.
     pub low: Vec<Option<f64>>,
-    /// Upper curve.
+    /// Values of the upper curve, one per level.
     pub high: Vec<Option<f64>>,
 }

@@ -1,9 +1,9 @@
-//! Digits of printed numbers.
+//! Formats numbers with four significant digits.
 
 /// Number of significant digits in printed text; reports have all digits.
 const SIGNIFICANT_DIGITS: i32 = 4;
 
-/// `value` to four significant digits: decimal if that is short, else with an exponent.
+/// Formats `value` with four significant digits. Very small and large values get an exponent.
 pub(crate) fn significant(value: f64) -> String {
     let scientific = format!("{value:.*e}", usize_of(SIGNIFICANT_DIGITS - 1));
     let exponent: i32 = scientific

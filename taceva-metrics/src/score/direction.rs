@@ -1,4 +1,4 @@
-//! Direction of good values, and its sign after a name.
+//! Direction of good values of a metric, and its sign, such as an arrow, in tables.
 
 /// Direction of good values of a metric.
 ///
@@ -22,7 +22,7 @@ pub enum Better {
 }
 
 impl Better {
-    /// `name` with the sign of the direction, as in tables: `mae ↓`, `r2 ↑`, `bias →0`. A descriptive value has no sign.
+    /// Appends the sign of the direction to `name`, as in tables: `mae ↓`, `r2 ↑`, `bias →0`. A descriptive value has no sign.
     ///
     /// ```
     /// use taceva_metrics::Better;
@@ -39,7 +39,7 @@ impl Better {
         format!("{name}{sign}")
     }
 
-    /// Word in files: `lower`, `higher`, `near zero` or `none`.
+    /// Name of the direction in files: `lower`, `higher`, `near zero` or `none`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -11,17 +11,18 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Flag {
-    /// All samples are in one bin, so the score cannot vary.
+    /// Only one bin has enough samples, so the score cannot vary between bins.
     OneBin,
-    /// Too small a stimulus: the light changed by less than 5 % in a scene, or labels differ less between presses than predictions within one press.
+    /// The stimulus is too small. A lighting scene changed the light by less than 5 %, or labels vary less over the samples than predictions vary
+    /// within a press.
     LowStimulus,
-    /// The error of a scene is smaller than the error of the reference scene. The score penalises this change like a larger error.
+    /// The error in a lighting scene is smaller than in the reference scene. The score penalises this change like a larger error.
     ImprovedError,
     /// The truths of some channels are collinear, so their effects on a prediction cannot be separated.
     CollinearTruths,
-    /// The training labels are unknown, so skill compares the model with the mean of the evaluated truth.
+    /// The training labels are unknown, so skill compares the model with the mean of the evaluated true values.
     MeanOfTruth,
-    /// All clusters give the same value, so the interval has no width, although the value may be uncertain.
+    /// The score does not vary between clusters, so the interval has no width. The value may still be uncertain.
     EqualClusters,
 }
 

@@ -1,10 +1,10 @@
-//! Confidence intervals of scores: both ends, and the method.
+//! Confidence intervals of scores, with their ends and method.
 
 use crate::score::bootstrap_ends::BootstrapEnds;
 use crate::score::scale::Scale;
 use crate::score::value::UndefinedReason;
 
-/// Kind of clusters of an interval.
+/// Kind of clusters (groups of samples) from whose variation an interval is computed.
 ///
 /// ```
 /// use taceva_metrics::{Channel, ClusteredBy, Evaluator, Interval};
@@ -18,19 +18,19 @@ use crate::score::value::UndefinedReason;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ClusteredBy {
-    /// Contact points.
+    /// Each contact point is a cluster.
     #[default]
     Point,
-    /// Single samples, declared independent by the caller.
+    /// Each sample is a cluster, because the caller declared the samples independent.
     Sample,
-    /// Whole recordings of a set.
+    /// Each recording of a set is a cluster.
     Recording,
-    /// Groups of dependent samples: blocks of time, clips, objects.
+    /// Each group of dependent samples, such as a block of time, a clip or an object, is a cluster.
     Group,
 }
 
 impl ClusteredBy {
-    /// Words after the name of a method.
+    /// Text that follows the name of the method, such as ` by point_id`.
     const fn words(self) -> &'static str {
         match self {
             ClusteredBy::Point => " by point_id",
@@ -41,7 +41,7 @@ impl ClusteredBy {
     }
 }
 
-/// A confidence interval of 95 %.
+/// 95 % confidence interval of a score, with its method.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Evaluator, Interval, UndefinedReason};
@@ -55,15 +55,15 @@ impl ClusteredBy {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Interval {
-    /// Delete-one-cluster jackknife.
+    /// Interval from a jackknife, which leaves out one cluster at a time.
     Jackknife {
-        /// Lower end.
+        /// Lower end of the interval, in the unit of the score.
         low: f64,
-        /// Upper end.
+        /// Upper end of the interval, in the unit of the score.
         high: f64,
         /// Jackknife standard error, in the unit of the score.
         standard_error: f64,
-        /// Degrees of freedom of Student's t for the ends.
+        /// Degrees of freedom of Student's t, from which the ends are computed.
         freedom: f64,
         /// Number of clusters with samples.
         clusters: usize,
@@ -72,76 +72,76 @@ pub enum Interval {
         /// Kind of the clusters.
         by: ClusteredBy,
     },
-    /// Bootstrap: replicates with random weights of the clusters.
+    /// Interval from a bootstrap, whose replicates weight the clusters at random.
     Bootstrap {
-        /// Lower end.
+        /// Lower end of the interval, in the unit of the score.
         low: f64,
-        /// Upper end.
+        /// Upper end of the interval, in the unit of the score.
         high: f64,
-        /// Standard deviation of the replicates, in the unit of the score.
+        /// Standard deviation of the score over the replicates, in the unit of the score.
         standard_error: f64,
         /// Degrees of freedom: number of clusters minus one.
         freedom: f64,
-        /// Scale on which the ends are symmetric about the value; irrelevant for percentiles.
+        /// Scale on which the ends are symmetric about the value. Percentile ends ignore the scale.
         scale: Scale,
-        /// Method for the ends from the replicates.
+        /// Method that computes the ends from the replicates.
         ends: BootstrapEnds,
         /// Number of clusters with samples.
         clusters: usize,
         /// Number of replicates.
         replicates: usize,
-        /// Seed of the replicates.
+        /// Seed of the random weights.
         seed: u64,
-        /// Number of replicates without a value, which are skipped.
+        /// Number of skipped replicates, for which the score has no value.
         undefined: usize,
         /// Kind of the clusters.
         by: ClusteredBy,
     },
-    /// Delta method: first-order variance from the jackknife variances of the value's components.
+    /// Interval from the delta method: a first-order variance from the jackknife of the quantities that form the value.
     Delta {
-        /// Lower end.
+        /// Lower end of the interval, in the unit of the score.
         low: f64,
-        /// Upper end.
+        /// Upper end of the interval, in the unit of the score.
         high: f64,
         /// Standard error, in the unit of the score.
         standard_error: f64,
-        /// Degrees of freedom of Student's t for the ends.
+        /// Degrees of freedom of Student's t, from which the ends are computed.
         freedom: f64,
-        /// Number of clusters with samples, in the part with the fewest clusters.
+        /// Number of clusters with samples, in the lighting scene with the fewest clusters.
         clusters: usize,
         /// Scale on which the ends are symmetric about the value.
         scale: Scale,
         /// Kind of the clusters.
         by: ClusteredBy,
     },
-    /// From the variance between and within clusters, for a spread beyond chance and for limits of agreement of independent errors.
+    /// Interval from the variances between and within clusters, for a spread beyond chance or for limits of agreement.
     Components {
-        /// Lower end.
+        /// Lower end of the interval, in the unit of the score.
         low: f64,
-        /// Upper end.
+        /// Upper end of the interval, in the unit of the score.
         high: f64,
-        /// Half-width divided by t, in the unit of the score.
+        /// Half the width of the interval divided by the factor of Student's t, in the unit of the score.
         standard_error: f64,
-        /// Degrees of freedom: number of clusters minus one, or the degrees of freedom of the standard deviation of errors.
+        /// Degrees of freedom: the number of clusters minus one, or those of the standard deviation of the errors.
         freedom: f64,
         /// Number of clusters with samples.
         clusters: usize,
         /// Kind of the clusters.
         by: ClusteredBy,
     },
-    /// Wilson interval for independent samples: the narrowest possible interval of a share.
+    /// Wilson interval of a share, for independent samples. Dependent samples would need a wider interval.
     Wilson {
-        /// Lower end.
+        /// Lower end of the interval, a share.
         low: f64,
-        /// Upper end.
+        /// Upper end of the interval, a share.
         high: f64,
     },
-    /// No interval, with the reason.
+    /// No interval exists, for the given reason.
     Undefined(UndefinedReason),
 }
 
 impl Interval {
-    /// The same interval with another kind of clusters.
+    /// Returns the interval with `clusters` as the kind of its clusters.
     pub(crate) fn clustered_by(mut self, clusters: ClusteredBy) -> Interval {
         if let Interval::Jackknife { by, .. }
         | Interval::Bootstrap { by, .. }
@@ -153,7 +153,7 @@ impl Interval {
         self
     }
 
-    /// Both ends; `None` without an interval. [`Interval::Undefined`] then has the reason.
+    /// Lower and upper end; `None` for [`Interval::Undefined`], which states the reason.
     pub fn ends(&self) -> Option<[f64; 2]> {
         match *self {
             Interval::Jackknife { low, high, .. }
@@ -165,8 +165,7 @@ impl Interval {
         }
     }
 
-    /// Standard error in the unit of the score, for any scale of the ends. `None` if the interval treats samples as
-    /// independent.
+    /// Standard error in the unit of the score, whatever the scale of the ends. `None` for a Wilson interval and for [`Interval::Undefined`].
     pub fn standard_error(&self) -> Option<f64> {
         match *self {
             Interval::Jackknife { standard_error, .. }
@@ -177,8 +176,8 @@ impl Interval {
         }
     }
 
-    /// Degrees of freedom of Student's t, on the scale of the ends: the number of independent normal values whose standard error would be
-    /// equally certain. `None` if the interval treats samples as independent.
+    /// Degrees of freedom of Student's t on the scale of the ends, which state the certainty of the standard error. `None` for a Wilson interval
+    /// and for [`Interval::Undefined`].
     pub fn freedom(&self) -> Option<f64> {
         match *self {
             Interval::Jackknife { freedom, .. }
@@ -189,7 +188,7 @@ impl Interval {
         }
     }
 
-    /// Scale on which the ends are symmetric about the value; `None` for an interval without such a scale.
+    /// Scale on which the ends are symmetric about the value. `None` for a Wilson interval and for [`Interval::Undefined`].
     pub fn scale(&self) -> Option<Scale> {
         match *self {
             Interval::Jackknife { scale, .. }
@@ -200,7 +199,7 @@ impl Interval {
         }
     }
 
-    /// Number of clusters; `None` for an interval without clusters.
+    /// Number of clusters with samples. `None` for a Wilson interval and for [`Interval::Undefined`].
     pub fn clusters(&self) -> Option<usize> {
         match *self {
             Interval::Jackknife { clusters, .. }
@@ -211,9 +210,9 @@ impl Interval {
         }
     }
 
-    /// Method in words: `jackknife by point_id, G=32`, `jackknife by point_id, G=32, logarithmic` or
+    /// Method in words, with G clusters and B replicates: `jackknife by point_id, G=32`, `jackknife by point_id, G=32, logarithmic` or
     /// `Poisson bootstrap by point_id (percentile), G=32, B=1000, seed=0`. If every sample is its own cluster,
-    /// `, samples taken as independent` replaces ` by point_id`. `None` without an interval.
+    /// `, samples taken as independent` replaces ` by point_id`. `None` for [`Interval::Undefined`].
     pub fn method(&self) -> Option<String> {
         match self {
             Interval::Jackknife {

@@ -26,7 +26,7 @@ pub struct Map {
 }
 
 impl Map {
-    /// Map with these edges, values and counts. The caller must check the shapes.
+    /// Creates a map. The caller must check the shapes.
     pub fn new(
         x_mm: Vec<f64>,
         y_mm: Vec<f64>,

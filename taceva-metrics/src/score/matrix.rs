@@ -1,6 +1,6 @@
 //! Matrices: values for pairs of names.
 
-/// Values for pairs of names. A missing value is `None`, never a placeholder.
+/// Values for pairs of names: the name of a row and the name of a column. A missing value is `None`, never a placeholder.
 ///
 /// # Shapes
 /// `values[row][column]` belongs to `rows[row]` and `columns[column]`.
@@ -20,12 +20,12 @@ pub struct Matrix {
     pub rows: Vec<String>,
     /// The names of the columns.
     pub columns: Vec<String>,
-    /// The value of each pair.
+    /// Value of each pair, by row and column.
     pub values: Vec<Vec<Option<f64>>>,
 }
 
 impl Matrix {
-    /// Matrix of `values` with the names of its rows and columns. The caller must check the shapes.
+    /// Creates a matrix. The caller must check the shapes.
     pub fn new(rows: Vec<String>, columns: Vec<String>, values: Vec<Vec<Option<f64>>>) -> Matrix {
         Matrix {
             rows,

@@ -1,6 +1,6 @@
-//! Ranges of quantities.
+//! Ranges of the values that a score can have.
 
-/// Range of a quantity, which limits its intervals and determines their scale.
+/// Range of the possible values of a score. Intervals stay within the range, and the range determines their scale.
 ///
 /// ```
 /// use taceva_metrics::Range;
@@ -9,18 +9,17 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Range {
-    /// Any number: a mean error, a slope.
+    /// Any number, such as a mean error or a slope.
     Any,
-    /// Above 0: errors, areas, spreads. The limit for infinitely many samples is above 0.
+    /// Above 0, also in the limit of infinitely many samples: errors, areas, spreads.
     Positive,
-    /// Above 0, and the maximum of several numbers, so without an interval. One sample, level or pair of channels determines a maximum, and
-    /// resampling does not show its variation.
+    /// Above 0, but without an interval, because the value is the maximum of several numbers. Resampling does not show the variation of a maximum.
     Greatest,
-    /// At least 0, with 0 possible even for infinitely many samples: a spread minus the part from chance.
+    /// At least 0. The value can be 0 even for infinitely many samples, such as a spread minus the part from chance.
     NotNegative,
-    /// Below 1: R², the skill of a model.
+    /// Below 1, such as R² or the skill of a model.
     BelowOne,
-    /// Between 0 and 1, both excluded even for infinitely many samples: a uniformity.
+    /// Between 0 and 1, without either end even for infinitely many samples, such as a uniformity.
     Ratio,
     /// From 0 to 1, both included: a uniformity without the part from chance.
     RatioWithEnds,
@@ -31,7 +30,7 @@ pub enum Range {
 }
 
 impl Range {
-    /// Least and greatest value; infinite on an unbounded side.
+    /// Lower and upper end of the range; infinite on an unbounded side.
     #[must_use]
     pub fn ends(self) -> [f64; 2] {
         match self {

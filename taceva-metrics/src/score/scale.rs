@@ -13,18 +13,18 @@ use std::fmt;
 pub enum Scale {
     /// The scale of the score itself.
     Own,
-    /// Logarithm of the distance from the single end of the range.
+    /// Logarithm of the distance from the only finite end of the range.
     Logarithm,
-    /// Logarithm of the ratio of the distances from both ends (log odds).
+    /// Log odds: the logarithm of the ratio of the distances from both ends of the range.
     Logit,
     /// The scale of the score itself, with ends cut to the range.
     Cut,
-    /// Wilson interval of a share, with the effective number of samples of the clusters.
+    /// Scale of the Wilson interval of a share. The number of samples is reduced for dependence within clusters.
     Wilson,
 }
 
 impl fmt::Display for Scale {
-    /// Writes the words after the name of a method; empty for the scale of the score itself.
+    /// Writes the text that follows the name of a method, such as `, logit`; nothing for the scale of the score itself.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Scale::Own => "",

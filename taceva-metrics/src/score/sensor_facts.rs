@@ -17,14 +17,14 @@ pub struct SensorFacts {
     pub footprint: Option<Footprint>,
     /// True if the gel blocks ambient light.
     pub opaque: Option<bool>,
-    /// Lighting scene with which other scenes are compared.
+    /// Name of the lighting scene with which other scenes are compared.
     pub reference_scene: String,
     /// Width and height of the sensor's pictures, pixels.
     pub frame_size: Option<[u32; 2]>,
 }
 
 impl SensorFacts {
-    /// Default reference scene.
+    /// Name of the reference scene by default.
     pub const REFERENCE_SCENE: &'static str = "normal";
 
     /// The same facts with another [`footprint`](SensorFacts::footprint).
@@ -76,7 +76,7 @@ impl Default for SensorFacts {
     }
 }
 
-/// Fact that a metric requires.
+/// Fact about the sensor that a metric requires.
 ///
 /// ```
 /// use taceva_metrics::{Fact, catalogue};
@@ -87,9 +87,9 @@ impl Default for SensorFacts {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Fact {
-    /// Sensing surface.
+    /// Outline of the sensing surface.
     Footprint,
-    /// Greatest indentation.
+    /// Greatest indentation of the sensing surface.
     DepthMax,
     /// Gel that is not declared opaque.
     NotOpaque,
@@ -98,7 +98,7 @@ pub enum Fact {
 }
 
 impl Fact {
-    /// Reason for skipping a metric if `facts` lack this fact.
+    /// Reason to skip a metric that requires this fact; `None` if `facts` satisfy the requirement.
     pub(crate) fn obstacle(self, facts: &SensorFacts) -> Option<SkipReason> {
         let footprint = facts.footprint.as_ref();
         let (there, name) = match self {
@@ -116,7 +116,7 @@ impl Fact {
     }
 }
 
-/// Footprint as text in the parameters of states, in whole nanometres.
+/// Formats `footprint` for the parameters of a state, with lengths in whole nanometres.
 pub(crate) fn written(footprint: &Footprint) -> String {
     let outline = match footprint.outline() {
         Outline::Disc { radius } => format!("disc {}", radius.0),

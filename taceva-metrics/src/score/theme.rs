@@ -1,6 +1,6 @@
 //! Sections of reports.
 
-/// Section of a report, with scores of one subject.
+/// Section of a report, with the scores of one subject, such as accuracy.
 ///
 /// ```
 /// use taceva_metrics::{Theme, catalogue};
@@ -13,11 +13,11 @@
 pub enum Theme {
     /// Errors of predictions.
     Accuracy,
-    /// Finest detail and least force.
+    /// Finest recognised detail and least detected force.
     Detail,
     /// Compliance of the gel.
     Surface,
-    /// Changes with place, light, time, repetition and unit.
+    /// Changes of results with place, light, time, repetition and unit of the sensor.
     Robustness,
     /// Camera and field of view.
     Camera,
@@ -33,7 +33,7 @@ impl Theme {
         Theme::Camera,
     ];
 
-    /// Name in page anchors.
+    /// Name of the section in the anchors of pages.
     pub const fn id(self) -> &'static str {
         match self {
             Theme::Accuracy => "accuracy",

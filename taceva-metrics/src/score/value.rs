@@ -9,8 +9,8 @@ use crate::score::digits::significant;
 use crate::score::map::Map;
 use crate::score::matrix::Matrix;
 
-/// A finished value. Prints four digits, or the decimals of a precision such as `{:.2}`; [`scalar`](Value::scalar) returns all digits.
-/// A width such as `{:>24}` applies to numbers and words alike.
+/// Value of a score. The printed text has four digits, or the decimals of a precision such as `{:.2}`; [`scalar`](Value::scalar) returns all
+/// digits. A width such as `{:>24}` applies to numbers and words alike.
 ///
 /// ```
 /// use taceva_metrics::{UndefinedReason, Value};
@@ -39,7 +39,7 @@ pub enum Value {
 }
 
 impl Value {
-    /// The number; `None` for any other value.
+    /// Number of a [`Value::Scalar`]; `None` for any other value.
     pub fn scalar(&self) -> Option<f64> {
         match self {
             Value::Scalar(value) => Some(*value),
@@ -62,7 +62,7 @@ impl fmt::Display for Value {
     }
 }
 
-/// Writes words in the width of a formatter. The precision applies only to numbers, but [`fmt::Formatter::pad`] would cut words.
+/// Writes `words` padded to the width of the formatter. The precision is ignored, because [`fmt::Formatter::pad`] would shorten the words to it.
 fn pad(f: &mut fmt::Formatter<'_>, words: &str) -> fmt::Result {
     let room = f.width().unwrap_or(0).saturating_sub(words.chars().count());
     let before = match f.align() {
@@ -105,113 +105,113 @@ pub enum UndefinedReason {
     Empty,
     /// There are fewer samples than the formula needs.
     TooFew {
-        /// Least number of samples.
+        /// Least number of samples that the formula needs.
         least: u64,
     },
-    /// All truths are equal, so there is no spread to explain.
+    /// All true values are equal, but the formula needs their spread.
     ConstantTruth {
         /// True if every prediction equals the constant truth.
         perfect: bool,
     },
-    /// No truth reaches the gate.
+    /// No true value reaches the contact threshold.
     BelowGate,
-    /// No sample is on the declared surface.
+    /// No sample is within the declared footprint.
     OutsideFootprint,
     /// No bin has enough samples.
     NoBin {
         /// Least number of samples of a bin.
         least: u64,
     },
-    /// Fewer bins than the formula needs.
+    /// There are fewer bins with enough samples than the formula needs.
     TooFewBins {
         /// Number of bins found.
         have: u64,
-        /// Least number of bins.
+        /// Least number of bins that the formula needs.
         least: u64,
     },
-    /// No bin or cell has two samples, so the spread from chance is unknown.
+    /// No bin or cell has two samples, so the spread by chance is unknown.
     NoRepeats,
     /// No press was repeated.
     NoRepeatedPress,
-    /// Fewer repeated presses than the formula needs.
+    /// There are fewer repeated presses than the formula needs.
     TooFewCells {
-        /// Number of presses found.
+        /// Number of repeated presses found.
         have: u64,
-        /// Least number of presses.
+        /// Least number of repeated presses that the formula needs.
         least: u64,
     },
-    /// All repeats are equal, so no ratio to their spread exists.
+    /// The repeats of every press are equal, so a ratio to their spread is undefined.
     EqualRepeats,
     /// All errors are equal, so their scatter is 0.
     EqualErrors,
-    /// All means of truth and prediction are equal, so no slope over them exists.
+    /// The mean of truth and prediction is the same for every sample, so errors have no slope over it.
     EqualMeans,
     /// All samples belong to one cluster, so the scatter between clusters is unknown.
     OneCluster,
-    /// No point has samples at two depths on both branches.
+    /// No contact point has samples at two depths both while loading and while unloading.
     ShortBranch,
-    /// The compared ranges do not overlap.
+    /// The compared ranges, such as depths of loading and unloading or surfaces of two units, do not overlap.
     NoOverlap,
     /// No force was measured.
     NoForce,
-    /// No sample is without contact.
+    /// Every sample is in contact, but the metric needs samples without contact.
     NoIdleSamples,
-    /// No press is light.
+    /// No press has a light force, from 0.02 N to 0.2 N.
     NoLightPresses,
-    /// Light presses correspond to fewer independent places than the formula needs.
+    /// The light presses are at too few places. Unequal numbers of presses reduce the effective number of places.
     TooFewPlaces {
-        /// Number of places.
+        /// Effective number of places.
         have: u64,
-        /// Least number of places.
+        /// Least effective number of places.
         least: u64,
     },
     /// Predictions do not increase with the force of light presses.
     NoRise,
-    /// The limit exceeds the forces of all light presses.
+    /// The detection limit exceeds the forces of all light presses.
     BeyondLightPresses,
-    /// Without one of the places the limit is below the lightest press, so the limit has no interval.
+    /// The detection limit falls below the lightest press if one place is left out. The limit then has no interval.
     AtLightestPress,
     /// No sample in contact has a place.
     NoContact,
-    /// Only one channel; the comparison needs two.
+    /// There is only one channel, but the comparison needs two.
     OneChannel,
-    /// Only one unit; the comparison needs two.
+    /// There is only one unit of the sensor, but the comparison needs two.
     OneUnit,
-    /// Fewer than three points, or points on one line: the rotation of a unit is undetermined.
+    /// The rotation between two units is undetermined: there are fewer than three points, or all are on one line.
     OpenTurn,
     /// No sample has a time.
     NoTimes,
     /// All samples have the same time.
     EqualTimes,
-    /// No two successive frames have a digest.
+    /// No two successive frames have a digest (checksum of the picture).
     NoDigests,
-    /// Pictures are more than a second apart, so they have no frame rate.
+    /// The median time between pictures exceeds one second, so they have no frame rate.
     NoStream,
-    /// A fact about the sensor is not declared.
+    /// The named fact about the sensor is not declared.
     NotDeclared(&'static str),
     /// No interval is defined for this score.
     NoInterval,
-    /// The score is a maximum of several numbers, and resampling does not show its variation.
+    /// The score is a maximum of several numbers. Resampling does not show the variation of a maximum.
     Greatest,
-    /// The value is at an end of its range, also with any one cluster left out, so the variation is unknown.
+    /// The value is at an end of its range and stays there if any one cluster is left out. The variation is unknown.
     AtEnd,
-    /// The mean is zero, so no ratio to it exists.
+    /// The mean is zero, so a ratio to it is undefined.
     ZeroMean,
-    /// No sample of the reference scene.
+    /// No sample belongs to the reference scene.
     NoReferenceScene,
-    /// No sample of a scene other than the reference scene.
+    /// All samples belong to the reference scene, so there is no scene to compare with it.
     OneScene,
     /// The pictures of the reference scene are black.
     ZeroIntensity,
-    /// The reference scene has no error.
+    /// The error in the reference scene is zero.
     ZeroBaseline,
-    /// Neither light nor error changed.
+    /// Neither the light nor the error differs from the reference scene.
     NoChange,
-    /// No value can be given in millionths of its unit: all values are too large or missing.
+    /// Every value is NaN or too large to round to a millionth of its unit.
     NoMillionths,
     /// The value exceeds the range of binary64.
     Overflow,
-    /// Too few clusters for an interval.
+    /// There are too few clusters for an interval.
     TooFewClusters {
         /// Number of clusters found.
         have: usize,
@@ -225,7 +225,7 @@ pub enum UndefinedReason {
     },
     /// A sample has no contact point, so the clusters are unknown.
     NoClusters,
-    /// Without one of the clusters the score has no value.
+    /// The score has no value if one of the clusters is left out.
     HangsOnOneCluster,
 }
 
@@ -333,7 +333,7 @@ impl fmt::Display for UndefinedReason {
     }
 }
 
-/// Reason why a metric does not apply.
+/// Reason why a metric does not apply to a channel or sensor.
 ///
 /// ```
 /// use taceva_metrics::InapplicableReason;
@@ -344,7 +344,7 @@ impl fmt::Display for UndefinedReason {
 pub enum InapplicableReason {
     /// No contact threshold is defined for this unit.
     NoGate(Unit),
-    /// No level width is defined for this unit.
+    /// No tolerances or levels are defined for this unit.
     NoStep(Unit),
     /// The samples do not have this channel.
     ChannelAbsent(&'static str),

@@ -1,17 +1,17 @@
-//! Rules for the standing of scores in verdicts.
+//! Rules that decide whether verdicts include the scores of a metric.
 
-/// Variant with the share that the best constant prediction reaches.
+/// Name of the variant with the share that a constant prediction reaches.
 pub(crate) const OF_CONSTANT: &str = "of_constant";
 
-/// Rule for the standing of a metric's scores in verdicts.
+/// Rule that decides whether verdicts include the scores of a metric.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum VerdictRule {
-    /// Skill of the channels.
+    /// The skill of the model on the channels of the score decides.
     Channels,
-    /// The score itself, which is the skill.
+    /// The score itself decides, because it is the skill.
     Skill,
-    /// Share of a constant prediction.
+    /// The score must exceed the share of a constant prediction.
     Share,
-    /// Skill of the channels and share of a constant prediction.
+    /// The skill of the model and the share of a constant prediction decide together.
     ShareBesideConstant,
 }

@@ -6,22 +6,22 @@ use crate::exact::Dyadic;
 use crate::exact::merge::{Merge, keyed};
 use crate::exact::record::Record;
 
-/// Counts of samples by the magnitude of the spacing error in whole nanometres, so that any tolerance can be applied later. Counts by true
-/// spacing give the success rate of the best constant prediction.
+/// Counts of samples by magnitude of the spacing error, in whole nanometres. Any tolerance can be applied to them later. Counts by true spacing
+/// give the success rate of the best constant prediction.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Histogram {
     pub(super) n_invalid: u64,
-    /// Number of samples by error, for occurring errors only.
+    /// Number of samples for each magnitude of error, nm. Errors that do not occur have no entry.
     counts: BTreeMap<u64, u64>,
-    /// Number of samples by true spacing; empty in states of versions without these counts.
+    /// Number of samples for each true spacing, nm. Empty if read from an older state without these counts.
     truths: BTreeMap<u64, u64>,
 }
 
-/// Name of the record's cell with the true spacings.
+/// Name of the record's cell with the counts of true spacings.
 const TRUTHS: &str = "truth";
 
 impl Histogram {
-    /// Adds a sample of the spacing `truth_nm` with the prediction `estimate_nm`.
+    /// Adds a sample with the true spacing `truth_nm` and the predicted spacing `estimate_nm`.
     pub(super) fn add(&mut self, truth_nm: i64, estimate_nm: i64) {
         *self
             .counts
@@ -32,8 +32,8 @@ impl Histogram {
         }
     }
 
-    /// Success rate of the best constant prediction: the greatest share of samples within `tolerance_nm` of one spacing. `None`
-    /// without samples, or if a true spacing is unknown.
+    /// Success rate of the best constant prediction: the greatest share of true spacings within `tolerance_nm` of one value. `None` without
+    /// samples, or if a true spacing is unknown.
     pub(super) fn of_constant(&self, tolerance_nm: u64) -> Option<f64> {
         let known = self
             .truths
@@ -70,8 +70,8 @@ impl Histogram {
         (n > 0).then(|| Dyadic::from(self.hits(tolerance_nm)).over(&Dyadic::from(n)))
     }
 
-    /// Converts the histogram to the record of a state: number of invalid samples, then each difference followed by its count. A cell lists each true
-    /// spacing followed by its count.
+    /// Converts the histogram to the record of a state. Its counts are the number of invalid samples, then each error followed by its number of
+    /// samples. A cell lists true spacings in the same way.
     pub(super) fn to_record(&self) -> Record {
         let flat = |counts: &BTreeMap<u64, u64>| {
             let counts = counts.iter();
@@ -92,7 +92,7 @@ impl Histogram {
         }
     }
 
-    /// Reads the record of a state.
+    /// Reads a histogram from the record of a state.
     pub(super) fn read_record(record: &Record) -> Result<Histogram, String> {
         if !(record.sums.is_empty() && record.values.is_empty()) {
             return Err("the record has sums or values, expected counts only".to_owned());
@@ -116,7 +116,7 @@ impl Histogram {
     }
 }
 
-/// Reads ascending numbers, each followed by its count. Errors name the numbers by `what`.
+/// Reads ascending numbers, each followed by its count. Error messages call these numbers `what`.
 fn read_counts(counts: &[u64], what: &str) -> Result<BTreeMap<u64, u64>, String> {
     let mut read = BTreeMap::new();
     for pair in counts.chunks(2) {

@@ -1,4 +1,4 @@
-//! Variation of errors with distance and depth.
+//! Variation of errors with distance from the sensor's axis and with depth.
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
@@ -47,11 +47,11 @@ pub(crate) static R_SPATIAL: Metric = Metric {
     ..Metric::of(&KIND)
 };
 
-/// Variant that decides verdicts.
+/// Name of the variant that decides verdicts: the variation of errors beyond chance.
 pub(super) const EXCESS: &str = "excess";
 
-/// Mean of the standard deviations of bin means over distance and over depth, with the divisor of `settings`. All variants except
-/// `std_distance` and `std_depth` are also means over both directions.
+/// Mean of two standard deviations: of the bin means over distance, and of the bin means over depth. Their divisor follows `settings.ddof`. All
+/// variants except `std_distance` and `std_depth` are such means too.
 pub(super) fn robustness(sums: &SpatialSums, settings: &Settings, unit: Unit) -> Numbers {
     if sums.n == 0 {
         let outside = sums.outside > 0;
@@ -109,7 +109,8 @@ pub(super) fn robustness(sums: &SpatialSums, settings: &Settings, unit: Unit) ->
         )
 }
 
-/// Excess of one channel, or the mean of two, with its interval, if the contact points of the samples are known.
+/// Variation of errors beyond chance, with its interval, as a mean over the channels and over distance and depth. Each channel has the sums of
+/// every contact point.
 pub(super) fn of_clusters(channels: &[Vec<&SpatialSums>], settings: &Settings) -> Intervals {
     type Axis = fn(&SpatialSums) -> &SortedMap<u8, Moments>;
     let axes: [Axis; 2] = [|sums| &sums.distance, |sums| &sums.depth];
@@ -137,7 +138,8 @@ pub(super) fn of_clusters(channels: &[Vec<&SpatialSums>], settings: &Settings) -
     })
 }
 
-/// Centred rolling means of the bins with enough samples, each rounded once. The window is shorter at the ends.
+/// Moments of the rolling means over the bins with enough samples. Each mean is centred on a bin and rounded once. Near both ends it covers fewer
+/// bins.
 fn smoothed(bins: &[Bin], settings: &Settings) -> Moments {
     let bins = bins.iter().filter(|bin| bin.has(settings.n_min));
     let means: Vec<f64> = bins.map(|bin| bin.mean).collect();

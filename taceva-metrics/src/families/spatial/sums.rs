@@ -8,15 +8,15 @@ use crate::exact::record::Record;
 use crate::exact::sorted_map::SortedMap;
 use crate::pair::{Paired, is_valid};
 
-/// Number of bins in each direction.
+/// Number of bins of distance, and number of bins of depth.
 pub(super) const BINS: u8 = 100;
 
-/// Absolute errors of one channel by bin of distance and by bin of depth, for bins with samples.
+/// Absolute errors of one channel, grouped by distance from the sensor's axis and by depth. Bins without samples are absent.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SpatialSums {
     pub(super) n: u64,
     pub(super) n_invalid: u64,
-    /// Number of samples beyond the reach or the depth of the sensor.
+    /// Number of samples outside the radius or the depth range of the footprint.
     pub(super) outside: u64,
     pub(super) distance: SortedMap<u8, Moments>,
     pub(super) depth: SortedMap<u8, Moments>,
@@ -104,7 +104,7 @@ impl Merge for SpatialSums {
     }
 }
 
-/// Greatest distance from the axis and greatest depth of a sensor.
+/// Greatest distance from the sensor's axis and greatest depth, of a footprint.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
     pub(super) radius: Nanometre,
@@ -112,7 +112,7 @@ pub(super) struct Reach {
 }
 
 impl Reach {
-    /// Reach of `footprint`; `None` if the footprint declares no depth.
+    /// Greatest distance and depth of `footprint`; `None` if the footprint declares no depth.
     pub(super) fn of(footprint: &Footprint) -> Option<Reach> {
         Some(Reach {
             radius: footprint.reach(),
@@ -120,9 +120,9 @@ impl Reach {
         })
     }
 
-    /// Bins of distance and depth for a place in mm, computed in whole nanometres; `None` beyond the reach.
+    /// Bins of distance and depth for a place in mm, computed in whole nanometres; `None` outside the radius or the depth range.
     ///
-    /// For the distance r: the greatest k with (k `radius`)² ≤ 10⁴ r². For the depth z: ⌊100 z / `depth`⌋. Both are at most 99.
+    /// The distance r is in bin ⌊100 r / `radius`⌋, the depth z in bin ⌊100 z / `depth`⌋. Both are at most 99.
     fn bins(self, place_mm: [f64; 3]) -> Option<(u8, u8)> {
         let [x, y, z] = place_mm.map(Nanometre::from_millimetres);
         let (x, y, z) = (x?, y?, z?);

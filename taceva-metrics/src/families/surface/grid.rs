@@ -17,9 +17,9 @@ impl Grid {
         Grid { footprint, bins }
     }
 
-    /// Cell of a place in mm, computed in whole nanometres; `None` outside the footprint.
+    /// Row and column of the cell at a place in mm, computed in whole nanometres; `None` outside the footprint.
     ///
-    /// bin = min(⌊(x + R) G / 2R⌋, G − 1) for G bins from −R to R: the last edge belongs to the last bin.
+    /// For G cells from −R to R along an axis, the coordinate x is in cell min(⌊(x + R) G / 2R⌋, G − 1). The last edge belongs to the last cell.
     pub(crate) fn cell(&self, x_mm: f64, y_mm: f64) -> Option<Cell> {
         let x = Nanometre::from_millimetres(x_mm)?;
         let y = Nanometre::from_millimetres(y_mm)?;
@@ -38,7 +38,7 @@ impl Grid {
         bin.min(self.bins - 1)
     }
 
-    /// Edges of columns and rows, mm, each rounded once.
+    /// Edges of the columns and edges of the rows, mm. Each edge is rounded once.
     pub(crate) fn edges_mm(&self) -> [Vec<f64>; 2] {
         self.footprint.half_extent().map(|half| {
             let edge = |bin: u32| {
@@ -55,7 +55,7 @@ impl Grid {
         self.bins
     }
 
-    /// Footprint in the form of a state.
+    /// Footprint that the grid covers.
     pub(crate) fn footprint(&self) -> Footprint {
         self.footprint
     }

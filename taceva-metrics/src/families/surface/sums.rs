@@ -9,7 +9,7 @@ use crate::exact::sorted_map::SortedMap;
 use crate::pair::is_valid;
 use crate::score::value::UndefinedReason;
 
-/// Variant from samples without shear only.
+/// Name of the variant that is computed only from samples without shear.
 pub(crate) const NORMAL_ONLY: &str = "normal_only";
 
 /// Depth and normal force of a press, measured by the reference instruments.
@@ -19,26 +19,26 @@ pub(crate) struct Press {
     pub(crate) force_n: f64,
 }
 
-/// Counts and exact sums of the compliance Δz / F, depth over normal force, of samples in contact.
+/// Counts and exact sums of the compliance Δz / F over the samples in contact. Δz is the depth in mm, F the normal force in N.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SurfaceSums {
     pub(crate) n_invalid: u64,
-    /// Number of samples below the gate, or not pressed into the surface.
+    /// Number of samples without contact: force below the threshold, or no indentation.
     pub(crate) gated: u64,
     /// Number of samples in contact outside the footprint.
     pub(crate) outside: u64,
     pub(crate) compliance: Total,
-    /// Compliance of the samples without shear.
+    /// Count and sum of the compliance of samples without shear, mm/N.
     pub(crate) normal: Total,
-    /// Σ Δz F.
+    /// Sum of depth times normal force over the samples in contact, N mm.
     pub(crate) work: ExactSum,
-    /// Σ F².
+    /// Sum of the squared normal forces over the samples in contact, N².
     pub(crate) force_squares: ExactSum,
-    /// Moments of the compliance Δz / F within the footprint, by cell: for all samples, and for samples without shear.
+    /// Moments of the compliance in each cell of the footprint, mm/N: of all samples in contact, and of those without shear.
     pub(crate) cells: SortedMap<Cell, [Moments; 2]>,
 }
 
-/// Count and exact sum.
+/// Number of values, and their exact sum.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Total {
     pub(crate) n: u64,
@@ -60,16 +60,16 @@ impl Total {
 /// Place of a press relative to the grid.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Place {
-    /// Unknown, or not needed.
+    /// The place is unknown, or not needed.
     Unknown,
-    /// Outside the footprint.
+    /// The place is outside the footprint.
     Outside,
-    /// In a cell of the grid.
+    /// The place is in this cell of the grid.
     Cell(Cell),
 }
 
 impl SurfaceSums {
-    /// Adds a press. A press below `gate_n` newtons is counted in `gated`.
+    /// Adds a press at `place`. A press with a force below `gate_n` newtons, or without indentation, is counted in `gated`.
     pub(crate) fn add(&mut self, press: Press, gate_n: f64, without_shear: bool, place: Place) {
         let Press { depth_mm, force_n } = press;
         if !is_valid(depth_mm) || !is_valid(force_n) {
@@ -104,7 +104,7 @@ impl SurfaceSums {
         }
     }
 
-    /// Number of samples in cells.
+    /// Number of samples in contact at known places within the footprint.
     pub(crate) fn binned(&self) -> u64 {
         self.cells.values().map(|[all, _]| all.n).sum()
     }
@@ -136,7 +136,7 @@ impl SurfaceSums {
         }
     }
 
-    /// Reads the record of a state whose grid has `bins` cells along each side.
+    /// Reads the sums from the record of a state whose grid has `bins` cells along each side.
     pub(crate) fn read_record(record: &Record, bins: u32) -> Result<SurfaceSums, String> {
         let ([n, n_invalid, gated, outside, n_normal], sums) = record.with_cells()?;
         let [compliance, work, force_squares, normal] = sums;
