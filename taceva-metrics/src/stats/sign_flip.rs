@@ -11,15 +11,15 @@ use crate::exact::Dyadic;
 
 /// Test of equal errors of two models on the same samples.
 ///
-/// Let D_c = Σ|d_A| − Σ|d_B| for the errors d of models A and B in cluster c, and T = Σ_c D_c. For equal models each D_c could have the
-/// opposite sign with equal probability, so |T| has the distribution of |T*| = |Σ_c ± D_c|. Over N random patterns of signs,
-/// p = (1 + #{|T*| ≥ |T|}) / (1 + N). If the number of all patterns of G clusters, 2^G, is at most N, p is the share of all
-/// patterns with |T*| ≥ |T|. Sums and comparisons are exact, so ties are exact.
+/// Let D_c = Σ|d_A| − Σ|d_B| over the samples of cluster c, for the errors d_A and d_B of models A and B, and T = Σ_c D_c. If the models are equal,
+/// each D_c could have the opposite sign with equal probability. |T| then has the distribution of |T*| = |Σ_c ± D_c|. For N random patterns of signs,
+/// p = (1 + #{|T*| ≥ |T|}) / (1 + N). If G clusters have at most N patterns in all, 2^G, then p is the share of these patterns with |T*| ≥ |T|. Sums
+/// and comparisons are exact, so ties are exact.
 ///
-/// Flip i negates the c-th cluster, in the order of names, if bit c mod 64 of the hash of (seed, i, ⌊c / 64⌋) is set. The result depends
+/// Random pattern i negates the c-th cluster, in the order of names, if bit c mod 64 of the hash of (seed, i, ⌊c / 64⌋) is set. The result depends
 /// only on the samples, the seed and the number of flips. Exchanging A and B does not change p.
 ///
-/// Correct predictions of a success rate are compared in the same way, board by board. Σ is then the number of correct predictions.
+/// For a success rate, a cluster is a board, and the sums over its samples are numbers of correct predictions.
 ///
 /// ```
 /// use taceva_metrics::{ClusterSums, Sides, SignFlip};
@@ -47,7 +47,7 @@ pub struct SignFlip {
 }
 
 impl Default for SignFlip {
-    /// 10,000 flips, seed 0.
+    /// Test with at most 10,000 patterns of signs and seed 0.
     fn default() -> SignFlip {
         SignFlip {
             flips: 10_000,
@@ -71,10 +71,9 @@ impl SignFlip {
 
     /// Difference of the means over all samples. The standard error comes from the jackknife over clusters, the interval from the sign-flip test.
     ///
-    /// The interval contains the differences δ whose p value is above the level. If A were worse by δ everywhere, D_c minus δ times the number of
-    /// samples of c could have the opposite sign. A pattern of signs has two mean differences: of the negated clusters and of the
-    /// others. Below the observed difference the pattern counts from the smaller mean on; above, up to the larger mean. Each end is
-    /// therefore one of these means, found by counting.
+    /// The interval contains the differences δ whose p value is above the level. For each δ, the test flips the signs of D_c − δ n_c, with n_c
+    /// samples in cluster c. A pattern of signs has two mean differences: of the negated clusters and of the other clusters. The pattern counts for p
+    /// exactly if δ is between both means. Each end is therefore one of these means, found by counting.
     ///
     /// # Errors
     /// - [`ComparisonError::Unpaired`] or [`ComparisonError::Counts`] if the clusters of both sides differ in name or number of samples.
