@@ -135,7 +135,7 @@ impl Standing {
         }
     }
 
-    /// Step that may include the score in verdicts, as a sentence; `None` for an included score. A cross-validated score is not advised to use
+    /// Step that may include the score in verdicts, as a sentence; `None` for an included score. With `is_cross_validated`, the step does not propose
     /// cross-validation.
     ///
     /// ```
@@ -204,7 +204,7 @@ impl Standing {
         Standing::of_skill(low.or(value.filter(|value| *value <= ROUNDING)))
     }
 
-    /// Standing by the share of predictions beyond the bounds of the model, clipped or not.
+    /// Standing of a score with this `share` of predictions beyond the bounds of the model.
     pub(crate) fn of_bounded_share(share: f64) -> Standing {
         match share > GREATEST_BOUNDED_SHARE {
             true => Standing::Bounded,

@@ -25,7 +25,7 @@ pub struct ClusterSum {
     pub sum: ExactSum,
 }
 
-/// Exact sums of any number of clusters.
+/// Exact sum and number of samples for each cluster.
 ///
 /// A cluster is a contact point, or a board of a grating test. The order of samples does not change the sums, and sums of shards can be merged.
 ///

@@ -325,7 +325,7 @@ impl Noise {
 }
 
 impl Excess {
-    /// Mean of several excesses, such as those over distance and over depth; `None` for an empty list. If no bin means differ truly, the interval
+    /// Mean of several excesses, such as those over distance and over depth; `None` for an empty list. If the true bin means are equal, the interval
     /// starts above 0 in at most 5 % of cases.
     pub(crate) fn mean_of(all: &[Excess]) -> Option<Excess> {
         let first = all.first()?;

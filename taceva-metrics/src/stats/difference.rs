@@ -160,7 +160,7 @@ pub(super) struct Tested {
 }
 
 impl Tested {
-    /// Completes this difference, decided alone.
+    /// Computes the interval of a difference that is decided alone, outside of a family.
     pub(super) fn with(self, inverse: Inverse) -> Difference {
         let Tested { p, .. } = self;
         let step = Step {

@@ -91,8 +91,8 @@ pub(crate) fn interval(value: f64, range: Range, left_out: &[LeftOut]) -> Interv
 
 /// Standard error and degrees of freedom of the jackknife on the unbounded scale of the score; `None` unless all scores have a value there.
 ///
-/// With few clusters the distribution of a score is skewed, because a cluster with large errors raises the score. The standard error then depends on
-/// the value of the score, but not on the unbounded scale (`docs/coverage.md`).
+/// A score of few clusters has a skewed distribution, because one cluster may have large errors. The standard error then depends on the score itself.
+/// On the unbounded scale the standard error does not (`docs/coverage.md`).
 fn carried(estimated: &Estimated, left_out: &[LeftOut]) -> Option<[f64; 2]> {
     let carry = |cluster: &LeftOut| {
         let value = estimated.carry(cluster.value.ok()?)?;

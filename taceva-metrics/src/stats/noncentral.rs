@@ -35,7 +35,7 @@ pub(crate) fn critical_factor(freedom: f64) -> f64 {
     quantile(1.0 - 2.0 * RISK, freedom)
 }
 
-/// Probability P(t′ ≤ t) of a noncentral t′ with ν = `freedom` degrees of freedom and the noncentrality δ, for t ≥ 0 and δ ≥ 0.
+/// P(t′ ≤ t) of a noncentral t′ with ν = `freedom` and the noncentrality δ, for t ≥ 0 and δ ≥ 0.
 ///
 /// Let y = δ² / 2, pⱼ = e^(−y) yʲ / j! and qⱼ = δ e^(−y) yʲ / (√2 Γ(j + 3/2)). Let Iₓ be the incomplete beta function at x = t² / (ν + t²). The
 /// probability is ½ (1 + Σ pⱼ Iₓ(j + ½, ν/2) − Σ qⱼ (1 − Iₓ(j + 1, ν/2))). Here Σ qⱼ = 1 − 2 Φ(−δ) is used, with the normal distribution Φ.

@@ -28,8 +28,8 @@ pub struct OneWay {
     pub groups: u64,
     /// Mean of all readings.
     pub mean: f64,
-    /// Standard uncertainty of the mean, with groups − 1 degrees of freedom. Readings of one group have a common deviation, so large groups make the
-    /// mean less certain.
+    /// Standard uncertainty of the mean, with groups − 1 degrees of freedom. Readings of one group have a common deviation, so large groups increase
+    /// this uncertainty.
     pub mean_uncertainty: f64,
     /// Mean square between groups.
     pub mean_square_between: f64,

@@ -8,7 +8,7 @@ use taceva_core::random::mix;
 
 use taceva_core::random::fnv_1a;
 
-/// Number of clusters that share all contact points by hash, if there are more than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) points.
+/// Number of clusters formed by hash, if there are more than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) contact points.
 pub const HASHED_CLUSTERS: usize = 32;
 
 /// Cluster labels of a batch, with the rows of each cluster.
