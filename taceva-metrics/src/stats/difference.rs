@@ -58,7 +58,7 @@ pub(super) enum Inverse {
 }
 
 /// Lower ends (ascending) and upper ends (descending) of ranges, one for each pattern of signs. If the assumed difference is in this range, the sum
-/// with the pattern's signs is at least as large as the observed sum. An unlimited range has infinite ends.
+/// with the pattern's signs has at least the magnitude of the observed sum. An unlimited range has infinite ends.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Flips {
     pub(super) from_below: Vec<f64>,
@@ -257,7 +257,7 @@ impl Difference {
 }
 
 impl DifferenceTest {
-    /// Least p value that this test can give. A sign-flip test of few clusters has few patterns of signs, so its p value cannot be small.
+    /// Least p value that this test can give. A sign-flip test of few clusters has few patterns of signs, so its least p value is large.
     ///
     /// ```
     /// use taceva_metrics::DifferenceTest;

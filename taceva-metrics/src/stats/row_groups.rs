@@ -41,7 +41,7 @@ impl<'a> Grouped<'a> {
         self.by_name.get_or_init(find)
     }
 
-    /// Stores groups that are computed already. They are by hash if `is_by_hash`, otherwise by name.
+    /// Stores groups that are computed already, grouped by hash if `is_by_hash`, otherwise by name.
     pub(crate) fn know(&self, is_by_hash: bool, groups: &Groups) {
         let cell = match is_by_hash {
             true => &self.by_hash,
