@@ -1,14 +1,14 @@
-//! Standing of a score in verdicts, with the reason for an exclusion.
+//! Standing of a score: whether the score takes part in verdicts, and if not, the reason.
 
 use std::fmt;
 
-/// Greatest share of clipped predictions. Above this share, a score describes the bounds instead of the model.
+/// Greatest share of predictions beyond the bounds of a model. Above this share, a score describes the bounds instead of the model.
 const GREATEST_BOUNDED_SHARE: f64 = 0.05;
 
-/// Greatest skill from rounding alone: predictions equal to the constant except for the last bits reach 10⁻¹⁵.
+/// Greatest skill that rounding alone may cause. Predictions that equal the constant except for rounding have a skill near 10⁻¹⁵.
 const ROUNDING: f64 = 1e-9;
 
-/// Standing of a score in verdicts, with the reason for an exclusion. A greater standing is worse.
+/// Standing of a score: whether the score takes part in verdicts, and if not, the reason. Standings are ordered from best to worst.
 ///
 /// ```
 /// use taceva_metrics::Standing;
@@ -18,25 +18,25 @@ const ROUNDING: f64 = 1e-9;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Standing {
-    /// Included.
+    /// Included in verdicts.
     #[default]
     Counts,
-    /// Included with a mark: no evidence that the model is better than a constant prediction.
+    /// Included in verdicts, with a mark: no evidence that the model is better than a constant prediction.
     SkillUnknown,
-    /// Excluded: more than 5 % of the predictions are beyond the bounds of the model.
+    /// Excluded from verdicts: more than 5 % of the predictions are beyond the bounds of the model.
     Bounded,
-    /// Excluded: test samples have similar neighbours in the training part.
+    /// Excluded from verdicts: test samples resemble training samples.
     Neighbours,
-    /// Excluded: the stimulus was too small, in the light of a scene or in the labels of repeated presses.
+    /// Excluded from verdicts: the light of a scene, or the labels of repeated presses, hardly changed.
     LowStimulus,
-    /// Excluded: the interval of the deciding variant contains the value of chance alone.
+    /// Excluded from verdicts: the interval contains the value expected by chance alone.
     NotAboveNoiseFloor,
-    /// Excluded: a share whose interval is not above the share of the constant prediction with which skill compares the model. The model may still
-    /// have the smaller mean squared error.
+    /// Excluded from verdicts: the score is a share, and its interval is not above the share of a constant prediction. The model may still have the
+    /// smaller mean squared error.
     NotAboveConstant,
-    /// Excluded: better than a constant, but without an interval that shows more than chance.
+    /// Excluded from verdicts: the skill is above zero, but no interval shows that this is more than chance.
     NoInterval,
-    /// Excluded: the model is not shown to be better than a constant.
+    /// Excluded from verdicts: the model is not shown to be better than a constant.
     NoSkill,
 }
 
@@ -59,7 +59,7 @@ impl Standing {
         matches!(self, Standing::Counts | Standing::SkillUnknown)
     }
 
-    /// Words for files and programs; `None` for [`Standing::Counts`]. [`Standing::phrase`] returns words for readers.
+    /// Short name for files and programs; `None` for [`Standing::Counts`]. [`Standing::phrase`] returns words for readers.
     ///
     /// ```
     /// use taceva_metrics::Standing;
@@ -135,7 +135,8 @@ impl Standing {
         }
     }
 
-    /// Step that may include the score in verdicts, as a sentence; `None` for an included score. A cross-validation already scores every point.
+    /// Step that may include the score in verdicts, as a sentence; `None` for an included score. With `is_cross_validated`, the step does not propose
+    /// cross-validation.
     ///
     /// ```
     /// use taceva_metrics::Standing;
@@ -175,7 +176,7 @@ impl Standing {
 
     /// Standing of a skill score whose 95 % interval starts at `low`.
     ///
-    /// Without an interval there is no evidence for or against skill, and a verdict needs evidence.
+    /// Without an interval (`None`) there is no evidence for or against skill, and a verdict needs evidence.
     ///
     /// ```
     /// use taceva_metrics::Standing;
@@ -203,7 +204,7 @@ impl Standing {
         Standing::of_skill(low.or(value.filter(|value| *value <= ROUNDING)))
     }
 
-    /// Standing by the share of predictions beyond the bounds of the model, clipped or not.
+    /// Standing of a score with this `share` of predictions beyond the bounds of the model.
     pub(crate) fn of_bounded_share(share: f64) -> Standing {
         match share > GREATEST_BOUNDED_SHARE {
             true => Standing::Bounded,

@@ -7,15 +7,15 @@ use crate::score::least::{LEAST_CLUSTERS, LEAST_REPLICATES};
 use crate::score::value::UndefinedReason;
 use crate::score::{BootstrapEnds, ClusteredBy, Interval, Scale};
 
-/// Reciprocal of the greatest share of replicates without a value.
+/// At most one in this many replicates may lack a value.
 const UNDEFINED_IN: usize = 20;
 
 /// Poisson bootstrap: intervals from replicates with random weights of the clusters.
 ///
-/// Cluster c has the weight w = Poisson(1) in replicate b, drawn by inverting the 64-bit hash of (seed, c, b). The score of the replicate
-/// is computed exactly from Σ_c w_c × sums of c. The bootstrap needs the same states as the jackknife, and states still merge. The interval
-/// depends only on the set of samples, the seed and the number of replicates. Clusters are identified by name, or by bucket if contact points
-/// are [hashed](crate::Clusters::Hashed). All contact points of a bucket share one weight.
+/// In replicate b, cluster c has a Poisson weight w_c with mean 1, drawn by inverting the 64-bit hash of (seed, c, b). The score of the replicate is
+/// computed exactly from Σ_c w_c × (sums of cluster c). The bootstrap uses the same states as the jackknife. The interval depends only on the set of
+/// samples, the seed and the number of replicates. Clusters are identified by name, or by bucket if contact points are
+/// [hashed](crate::Clusters::Hashed). All contact points of a bucket share one weight.
 ///
 /// # Reference
 /// Hanley and MacGibbon, Creating non-parametric bootstrap samples using Poisson frequencies, Computer Methods and Programs in
@@ -31,21 +31,21 @@ const UNDEFINED_IN: usize = 20;
 pub struct PoissonBootstrap {
     /// Number of replicates; at least 39 for an interval.
     pub replicates: u32,
-    /// Seed of the weights.
+    /// Seed of the random weights of clusters.
     pub seed: u64,
-    /// Method that computes the ends from the replicates.
+    /// Method that computes the ends of the interval from the replicates.
     pub ends: BootstrapEnds,
 }
 
 impl Default for PoissonBootstrap {
-    /// 1,000 replicates, seed 0, percentiles.
+    /// Bootstrap with 1,000 replicates, seed 0 and percentiles as ends.
     fn default() -> PoissonBootstrap {
         PoissonBootstrap::DEFAULT
     }
 }
 
 impl PoissonBootstrap {
-    /// 1,000 replicates, seed 0, percentiles.
+    /// Bootstrap with 1,000 replicates, seed 0 and percentiles as ends.
     pub const DEFAULT: PoissonBootstrap = PoissonBootstrap {
         replicates: 1000,
         seed: 0,
@@ -72,9 +72,9 @@ impl PoissonBootstrap {
 }
 
 impl PoissonBootstrap {
-    /// Interval of an estimate, which is the score of all clusters.
+    /// Interval of `estimated`, the score of all samples.
     ///
-    /// `clusters` are the keys of the clusters with samples. `resampled` computes the score for given weights of the clusters.
+    /// `clusters` are the keys of the clusters with samples. `resampled` computes the score for given weights, one for each cluster.
     pub(crate) fn interval(
         &self,
         estimated: &Estimated,
@@ -146,7 +146,7 @@ impl PoissonBootstrap {
     }
 }
 
-/// Ends of the middle 95 % of at least 39 replicates.
+/// Lower and upper end of the middle 95 % of scores, from at least 39 replicates.
 fn percentiles(replicates: &mut [f64]) -> [f64; 2] {
     replicates.sort_unstable_by(f64::total_cmp);
     let outside = (replicates.len() + 1) / 40;
@@ -183,7 +183,7 @@ mod tests {
         }
     }
 
-    /// The weighted mean of 0, 1, …, clusters − 1.
+    /// Mean of the indices 0, 1, … of the clusters, weighted by `weights`.
     fn mean(weights: &[u32]) -> Result<f64, UndefinedReason> {
         let total: u32 = weights.iter().sum();
         let sum: u32 = (0..).zip(weights).map(|(at, weight)| at * weight).sum();

@@ -8,15 +8,14 @@ use super::sides::Sides;
 use super::student::beyond;
 use crate::score::value::UndefinedReason;
 
-/// Least p value that differs from 0: below this value, 1 − p is 1 in binary64.
+/// Least p value that is reported, 2⁻⁵³: for a smaller p, 1 − p rounds to 1.
 pub(super) const LEAST_P: f64 = f64::EPSILON / 2.0;
 
-/// Compares two scores of different samples: of two sensors, or of two sessions.
+/// Compares two scores of different samples, such as the scores of two sensors or of two sessions.
 ///
-/// The interval of the difference follows from the intervals of both scores, each on its own scale and with its own degrees of freedom.
-/// With l and u the distances of an interval's ends below and above its score, A − B has the ends (A − B) − √(l_A² + u_B²) and (A − B) + √(u_A² + l_B²). p
-/// is the level at which an end of this interval is 0, so verdict, p value and interval agree. The least p value is
-/// 1.1e-16.
+/// The interval of the difference follows from the intervals of both scores, each on its own scale and with its own degrees of freedom. Let l and u
+/// be the distances from a score down and up to the ends of its interval. The ends for A − B are then (A − B) − √(l_A² + u_B²) and (A − B) + √(u_A² +
+/// l_B²). The p value is the level at which an end of this interval is 0, so verdict, p value and interval agree. The least p value is 1.1e-16.
 ///
 /// For two equal sensors, about 4 % of comparisons still show a difference, and more if few contact points cause most of the error.
 /// `docs/coverage.md` describes the simulation, with Welch's test for comparison.
@@ -72,7 +71,7 @@ pub fn by_intervals(estimates: Sides<Estimate>) -> Result<Difference, Comparison
     Ok(tested.with(Inverse::Intervals(pair)))
 }
 
-/// Pair of estimates, whose difference has an interval at every level.
+/// Estimates A and B, which determine an interval of A − B at any level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Pair {
     a: Estimate,
@@ -90,9 +89,9 @@ impl Pair {
         ]
     }
 
-    /// Level at which an end of the interval is `shift`: the two-sided p value of this difference.
+    /// Two-sided p value of the hypothesis A − B = `shift`: the level at which an end of the interval equals `shift`.
     pub(super) fn p(&self, shift: f64) -> f64 {
-        /// Bisection steps for the ratio of the enclosing levels, down to rounding.
+        /// Number of bisection steps, which find the level down to rounding.
         const HALVINGS: usize = 64;
         let apart = self.a.value() - self.b.value() - shift;
         let reaches = |level: f64| {

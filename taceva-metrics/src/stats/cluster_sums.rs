@@ -1,4 +1,4 @@
-//! Exact sums by cluster, for the comparison of two models on the same samples.
+//! Exact sums of errors or of correct predictions by cluster, for the comparison of two models on the same samples.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use super::error::ComparisonError;
 use crate::exact::ExactSum;
 use crate::pair::Paired;
 
-/// Number of samples of one cluster, and the sum of their terms.
+/// Number of samples of one cluster, and the sum over these samples of their errors or correct predictions.
 ///
 /// ```
 /// use taceva_metrics::ClusterSum;
@@ -25,10 +25,9 @@ pub struct ClusterSum {
     pub sum: ExactSum,
 }
 
-/// Exact sums by cluster, for any number of clusters.
+/// Exact sum and number of samples for each cluster.
 ///
-/// A cluster is exchangeable as a whole: a contact point, or a board of a grating test. The sums depend only on the set of samples, and
-/// merge like a state.
+/// A cluster is a contact point, or a board of a grating test. The order of samples does not change the sums, and sums of shards can be merged.
 ///
 /// ```
 /// use taceva_metrics::ClusterSums;
@@ -47,7 +46,7 @@ pub struct ClusterSums {
 }
 
 impl ClusterSums {
-    /// Adds one sample of `cluster`.
+    /// Adds one sample with the value `term` to `cluster`.
     ///
     /// # Errors
     /// [`ComparisonError::Term`] if `term` is not finite. Nothing is added then.
@@ -64,9 +63,9 @@ impl ClusterSums {
         Ok(())
     }
 
-    /// Adds the absolute error of each pair of the channel at `position`, by contact point.
+    /// Adds the absolute error of each row to the cluster of its contact point, for the channel at index `position`.
     ///
-    /// Rows without a value are skipped. Invalid pairs are skipped and counted in [`n_invalid`](ClusterSums::n_invalid).
+    /// Rows without prediction or truth are skipped. Invalid pairs of both are skipped and counted in [`n_invalid`](ClusterSums::n_invalid).
     ///
     /// # Errors
     /// [`ComparisonError::NoClusters`] if the batch has no contact points. Nothing is added then.
@@ -98,7 +97,7 @@ impl ClusterSums {
         Ok(())
     }
 
-    /// Adds the sums of `other`.
+    /// Adds the sums of `other`, cluster by cluster.
     pub fn merge(&mut self, other: &ClusterSums) {
         for (name, theirs) in &other.cells {
             let cell = self.cell(name);
@@ -108,7 +107,7 @@ impl ClusterSums {
         self.n_invalid = self.n_invalid.saturating_add(other.n_invalid);
     }
 
-    /// Clusters in the order of their names.
+    /// Names and sums of the clusters, in the order of names.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &ClusterSum)> {
         self.cells.iter().map(|(name, cell)| (name.as_str(), cell))
     }
@@ -118,7 +117,7 @@ impl ClusterSums {
         self.cells.get(cluster)
     }
 
-    /// Number of pairs skipped for a NaN or a magnitude beyond 2¹⁰²¹.
+    /// Number of pairs of prediction and truth that were skipped for a NaN or a magnitude beyond 2¹⁰²¹.
     pub fn n_invalid(&self) -> u64 {
         self.n_invalid
     }

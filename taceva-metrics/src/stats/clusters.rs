@@ -1,4 +1,4 @@
-//! Summaries of samples by contact point, which intervals need because samples at one point are correlated.
+//! Summaries of samples by contact point. Intervals need them because samples at one point are correlated.
 
 use std::collections::BTreeMap;
 
@@ -8,14 +8,14 @@ use taceva_core::random::fnv_1a;
 
 /// Greatest number of contact points that form separate clusters.
 pub const NAMED_CLUSTERS: usize = 64;
-/// Name of the only cluster of an undivided summary.
+/// Name of the cluster if all samples form one cluster.
 const WHOLE: &str = "all";
 
 /// One summary per cluster of samples.
 ///
-/// The variants are stages in a fixed order, and the set of samples alone determines the stage. Up to [`NAMED_CLUSTERS`] contact points
-/// are stored by name, more contact points by a hash of the name. One sample without a contact point removes all clusters. This type
-/// gets no further variant in a compatible version: states contain the stage, and another stage would need another state.
+/// Up to [`NAMED_CLUSTERS`] contact points are stored by name, more contact points by a hash of the name. One sample without a contact point merges
+/// all clusters into one summary. The set of samples alone determines the variant. This type gets no further variant in a compatible version, because
+/// saved states contain the variant.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Clusters, Evaluator, Rows};
@@ -31,7 +31,8 @@ const WHOLE: &str = "all";
 pub enum Clusters<T> {
     /// One summary per contact point, by name.
     Named(BTreeMap<String, T>),
-    /// [`HASHED_CLUSTERS`] summaries; the index of a contact point is `mix(seed ^ fnv_1a(name)) mod 32` with [`taceva_core::random::mix`].
+    /// [`HASHED_CLUSTERS`] summaries. A contact point has the index `mix(seed ^ hash) mod 32`, with the FNV-1a `hash` of its name and
+    /// [`mix`](taceva_core::random::mix).
     Hashed(Vec<T>),
     /// One summary of all samples, because a sample has no contact point.
     Pooled(T),
@@ -44,7 +45,7 @@ impl<T> Default for Clusters<T> {
 }
 
 impl<T> Clusters<T> {
-    /// Summaries of the clusters in order, each with the hash or index of its name; `None` without clusters.
+    /// Summaries of the clusters, each with the hash of its name or with its index; `None` if the samples have no clusters.
     pub(crate) fn cells(&self) -> Option<Vec<(u64, &T)>> {
         match self {
             Clusters::Named(cells) => {
@@ -60,7 +61,7 @@ impl<T> Clusters<T> {
         }
     }
 
-    /// Converts the summary of each cluster.
+    /// Converts the summary of each cluster with `convert`; returns the first error.
     pub(crate) fn try_map<U, E>(
         &self,
         mut convert: impl FnMut(&T) -> Result<U, E>,
@@ -85,7 +86,7 @@ impl<T> Clusters<T> {
     }
 }
 
-/// Constructor of clusters: an empty summary, and the seed of the hash.
+/// Settings for new clusters: an empty summary, and the seed of the hash.
 #[derive(Clone, Debug)]
 pub(crate) struct Clustering<T> {
     pub(crate) empty: T,
@@ -93,7 +94,8 @@ pub(crate) struct Clustering<T> {
 }
 
 impl<T: Merge + Clone> Clustering<T> {
-    /// Adds `rows` rows, clustered by `points`. `add` receives each cluster's summary with the cluster's rows, or `None` for all rows.
+    /// Adds `rows` rows to the clusters of their `points`. `add` receives the summary and the rows of each cluster. For rows without clusters, `add`
+    /// receives the summary of all samples and `None`.
     pub(crate) fn deposit(
         &self,
         clusters: &mut Clusters<T>,
@@ -128,7 +130,7 @@ impl<T: Merge + Clone> Clustering<T> {
         }
     }
 
-    /// Adds `rows` rows to one summary. The summary records only that the rows have clusters.
+    /// Adds `rows` rows to one summary of all samples. The variant shows if any row had no cluster.
     pub(crate) fn deposit_whole(
         &self,
         clusters: &mut Clusters<T>,
@@ -152,7 +154,7 @@ impl<T: Merge + Clone> Clustering<T> {
         }
     }
 
-    /// All samples as one cluster, or without clusters if the clusters are unknown.
+    /// Clusters merged into a single cluster. Samples without clusters stay without clusters.
     pub(crate) fn whole(&self, clusters: &Clusters<T>) -> Clusters<T> {
         match clusters {
             Clusters::Named(cells) if cells.is_empty() => Clusters::default(),
@@ -165,7 +167,7 @@ impl<T: Merge + Clone> Clustering<T> {
         }
     }
 
-    /// Merges the clusters of `other`.
+    /// Merges the clusters of `other` into `clusters`.
     pub(crate) fn merge(&self, clusters: &mut Clusters<T>, other: &Clusters<T>) {
         match other {
             Clusters::Named(theirs) => {
@@ -190,7 +192,7 @@ impl<T: Merge + Clone> Clustering<T> {
         }
     }
 
-    /// Sum of all clusters.
+    /// Summary of the samples of all clusters.
     pub(crate) fn total(&self, clusters: &Clusters<T>) -> T {
         let mut total = self.empty.clone();
         match clusters {

@@ -1,4 +1,4 @@
-//! Excess spread: spread of bin means beyond chance, for samples that are correlated within a cluster, with a conservative interval.
+//! Excess spread: standard deviation of bin means beyond chance, with a conservative interval. Samples may be correlated within a cluster.
 
 use std::collections::BTreeMap;
 
@@ -9,19 +9,19 @@ use crate::score::least::LEAST_CLUSTERS;
 use crate::score::value::UndefinedReason;
 use crate::score::{COVERAGE, ClusteredBy, Interval};
 
-/// Standard normal quantiles: one-sided 2.5 %, and 5 % divided among several spreads.
+/// Standard normal quantile with 2.5 % above it. The next three constants have 5 % / 2, 5 % / 4 and 5 % / 8 above them.
 const TWO_SIDED: f64 = 1.959_963_984_540_054;
 const HALVED: f64 = TWO_SIDED;
 const QUARTERED: f64 = 2.241_402_727_604_947;
 const EIGHTH: f64 = 2.497_705_474_412_382;
-/// Assumed excess kurtosis: 0.87 for the absolute value of a Gaussian error, increased by differences of spread between places.
+/// Assumed excess kurtosis of samples. The absolute value of a Gaussian error has 0.87; spreads that differ between places increase it.
 const KURTOSIS: f64 = 1.5;
-/// Least degrees of freedom of the noise for an excess. Paulson's approximation needs three, and tail probabilities need more.
+/// Least degrees of freedom of the noise with which an excess is shown. Paulson's approximation needs three, and tail probabilities need more.
 const LEAST_FREEDOM: f64 = 6.0;
-/// Number of bisection steps.
+/// Number of bisection steps for an end of the interval.
 const STEPS: usize = 100;
 
-/// Samples of one cluster in one bin.
+/// Number and mean of the samples of one cluster in one bin.
 #[derive(Clone, Copy, Debug)]
 struct Part {
     cluster: usize,
@@ -29,14 +29,14 @@ struct Part {
     mean: f64,
 }
 
-/// Number of samples of a bin, and its parts with their squared deviations and numbers of samples.
+/// Number of samples of a bin, and its parts. Each part has its sum of squared deviations and their degrees of freedom.
 type SizedBin = (u64, Vec<(Part, f64, u64)>);
 
-/// Bins with the contribution of each cluster.
+/// Bins of samples, each divided into the parts of its clusters.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ClusteredBins {
     bins: Vec<Vec<Part>>,
-    /// Squared deviations of samples from the mean of their cluster in their bin, and their degrees of freedom.
+    /// Sum of the squared deviations of samples from the mean of their cluster in their bin. The next field has the degrees of freedom of this sum.
     squares: f64,
     freedom: f64,
 }
@@ -44,18 +44,19 @@ pub(crate) struct ClusteredBins {
 /// Excess spread: standard deviation of bin means beyond chance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Excess {
-    /// √max(0, variance of the means − noise).
+    /// √max(0, variance of the bin means − variance expected by chance).
     pub(crate) value: f64,
-    /// Ends of the 95 % interval.
+    /// Ends of the 95 % interval of the excess spread.
     pub(crate) ends: [f64; 2],
-    /// Distance of the variance of the means from its value by chance, as a standard normal number.
+    /// Standard normal score of the test that bin means vary only by chance; 0 if the interval starts at 0.
     above: f64,
     /// Mean of the bin means.
     pub(crate) mean: f64,
 }
 
 impl ClusteredBins {
-    /// Bins of `clusters` with at least `n_min` samples. Bins and clusters keep their order, so sums are equal on every machine.
+    /// Divides the samples of `clusters` into bins, and keeps bins with at least `n_min` samples. The order of sums is fixed, so they are equal on
+    /// every machine.
     pub(crate) fn of<'a, K: Ord + Copy + 'a>(
         clusters: impl IntoIterator<Item = impl IntoIterator<Item = (K, &'a Moments)>>,
         n_min: u64,
@@ -92,12 +93,11 @@ impl ClusteredBins {
         Ok(kept)
     }
 
-    /// Spread of the bin means beyond chance.
+    /// Excess spread: standard deviation of the bin means beyond chance.
     ///
-    /// The variance of each mean follows from the variances between and within clusters of a bin, pooled over bins. A cluster in several bins
-    /// shifts their means together, which is not a spread. The rest of the variance is noise. The interval inverts the test of the ratio of
-    /// both variances by the F distribution, in Paulson's approximation. The degrees of freedom are Satterthwaite's, because other bins would
-    /// have other clusters.
+    /// The noise is the variance of bin means by chance. It follows from two variances, pooled over the bins: between the clusters of a bin, and
+    /// within a cluster. A cluster in several bins shifts their means together, so this shared part does not count as noise. The interval inverts an
+    /// F test of the ratio (variance of the means) / noise, in Paulson's approximation. The degrees of freedom are Satterthwaite's.
     ///
     /// # Reference
     /// Thomas and Hultquist, Annals of Statistics 6 (1978); Searle, Casella and McCulloch, Variance Components (1992), chapter 3; Paulson, Annals
@@ -253,7 +253,7 @@ impl ClusteredBins {
         })
     }
 
-    /// Mean covariance of two bin means, from clusters in both bins.
+    /// Covariance of two bin means from clusters that both bins share, as a mean over all pairs of bins.
     fn shared(&self, totals: &[(f64, f64)], of_cluster: f64) -> f64 {
         let clusters = self.bins.iter().flatten().map(|part| part.cluster + 1);
         let clusters = clusters.max().unwrap_or_default();
@@ -298,21 +298,22 @@ impl ClusteredBins {
     }
 }
 
-/// Variance of the bin means by chance.
+/// Variance of the bin means by chance, with the sums for its degrees of freedom.
 #[derive(Clone, Copy, Debug)]
 struct Noise {
     variance: f64,
     /// Number of bins.
     bins: f64,
-    /// Sum of the variances of the bin means. The next field is the sum of their squares, with a term for heavy tails.
+    /// Sum over the bins of the variance of a bin mean by chance. The next field is the sum of the squares of these variances, with a term for heavy
+    /// tails.
     sum: f64,
     squares: f64,
-    /// Degrees of freedom of the noise.
+    /// Degrees of freedom of the variance by chance.
     freedom: f64,
 }
 
 impl Noise {
-    /// Degrees of freedom of the variance of the means for a true spread of `spread` times the noise, both as variances.
+    /// Degrees of freedom of the observed variance of bin means, if the true variance between bins is `spread` times the variance by chance.
     fn bins_with(&self, spread: f64) -> f64 {
         let true_variance = spread * self.variance;
         let sum = self.sum + self.bins * true_variance;
@@ -324,8 +325,8 @@ impl Noise {
 }
 
 impl Excess {
-    /// Mean of several excesses, such as the excesses of distance and depth. Without a true excess, its interval starts above 0 in at most 5 % of
-    /// cases. `None` for no excess.
+    /// Mean of several excesses, such as those over distance and over depth; `None` for an empty list. If the true bin means are equal, the interval
+    /// starts above 0 in at most 5 % of cases.
     pub(crate) fn mean_of(all: &[Excess]) -> Option<Excess> {
         let first = all.first()?;
         if all.len() == 1 {

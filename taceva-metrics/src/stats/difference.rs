@@ -10,8 +10,8 @@ use super::student::{beyond, upper};
 
 /// Difference A − B of two scores, with test and interval.
 ///
-/// Verdict, p value and interval follow from one decision. [`decide`] decides a family of differences together. Before that call, each difference is
-/// a separate family.
+/// Verdict, p value and interval follow from one decision. [`decide`] decides several differences together, as a family of tests. Before that call,
+/// each difference is decided alone.
 ///
 /// ```
 /// use taceva_metrics::{Estimate, Sides, by_intervals};
@@ -25,18 +25,18 @@ use super::student::{beyond, upper};
 pub struct Difference {
     /// A − B, in the unit of the scores.
     pub value: f64,
-    /// Both scores.
+    /// Scores A and B.
     pub scores: Sides<f64>,
-    /// Standard error of the difference between clusters, and between trainings if their spread is given.
+    /// Standard error of the difference, from the variation between clusters. If several trainings are given, their variation is added.
     pub standard_error: f64,
-    /// Differences that the test at `1 − confidence` does not reject. The interval excludes 0 exactly if a difference is shown. An end is infinite
-    /// if the clusters are too few to reject any difference on that side.
+    /// Interval of the difference at this `confidence`. The interval excludes 0 exactly if a difference is shown. An end is infinite if the clusters
+    /// are too few to reject any difference on that side.
     pub interval: [f64; 2],
-    /// Confidence of the interval: 0.95 for a single difference, greater in a family.
+    /// Confidence of the interval: 0.95 for a difference that is decided alone, at least 0.95 in a family.
     pub confidence: f64,
-    /// Two-sided p value of this single test: the probability of at least this difference between equal scores.
+    /// Two-sided p value of this test alone: the probability of a difference at least this large if the true scores are equal.
     pub p: f64,
-    /// p value adjusted for the family by [`holm`](crate::holm).
+    /// p value adjusted for all tests of the family by [`holm`](crate::holm).
     pub adjusted_p: f64,
     /// True if a difference is shown: the adjusted p value is at most 0.05.
     pub is_shown: bool,
@@ -49,16 +49,16 @@ pub struct Difference {
 /// Data from which the confidence interval is computed at another level.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Inverse {
-    /// Intervals of both scores, for any level.
+    /// Estimates of both scores, whose intervals are known at any level.
     Intervals(Pair),
-    /// Sorted differences at which a pattern of signs starts to count, from either side.
+    /// Ranges of differences, one for each pattern of signs of a sign-flip test.
     Flips(Flips),
-    /// Student's distribution about the difference, with its standard error.
+    /// Student's distribution with `freedom` degrees of freedom, scaled by the standard error of the difference.
     Student { freedom: f64 },
 }
 
-/// Differences at which another pattern of signs gives a sum as large as the observed sum, sorted from below and from above. A pattern with such a
-/// sum at every difference has infinite entries.
+/// Lower ends (ascending) and upper ends (descending) of ranges, one for each pattern of signs. If the assumed difference is in this range, the sum
+/// with the pattern's signs has at least the magnitude of the observed sum. An unlimited range has infinite ends.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Flips {
     pub(super) from_below: Vec<f64>,
@@ -82,11 +82,11 @@ impl Flips {
     }
 }
 
-/// Decides a family of differences, and gives each difference the interval of its own step. Without true differences, at most one family in twenty
-/// shows a difference.
+/// Decides a family of differences, and computes the interval of each difference at the level of its decision. If all scores are truly equal, at most
+/// one family in twenty shows a difference.
 ///
-/// Holm's procedure decides the i-th smallest of m p values at 0.05 / (m − i + 1). From the first accepted test on, all tests are
-/// decided at the level of that test.
+/// Holm's procedure decides the i-th smallest of m p values at 0.05 / (m − i + 1). After the first test that shows no difference, all tests use the
+/// level of that test.
 ///
 /// ```
 /// use taceva_metrics::{Estimate, Sides, by_intervals, decide};
@@ -130,12 +130,12 @@ pub enum DifferenceTest {
     SignFlip {
         /// Number of paired clusters.
         clusters: usize,
-        /// Number of patterns of signs.
+        /// Number of patterns of signs that were tried.
         flips: u32,
-        /// True if the patterns are complete.
+        /// True if all possible patterns of signs were tried.
         exhaustive: bool,
     },
-    /// Interval test on different samples, from the intervals of both scores.
+    /// Test of scores on different samples, by the intervals of both scores.
     Intervals {
         /// Degrees of freedom of both intervals.
         freedom: Sides<f64>,
@@ -160,7 +160,7 @@ pub(super) struct Tested {
 }
 
 impl Tested {
-    /// Difference as a separate family.
+    /// Computes the interval of a difference that is decided alone, outside of a family.
     pub(super) fn with(self, inverse: Inverse) -> Difference {
         let Tested { p, .. } = self;
         let step = Step {
@@ -186,7 +186,7 @@ impl Tested {
 }
 
 impl Difference {
-    /// Applies the decision of the family.
+    /// Sets adjusted p value, confidence and interval by the decision `step`.
     fn take(&mut self, step: Step) {
         self.adjusted_p = step.adjusted_p;
         self.is_shown = step.is_rejected;
@@ -257,7 +257,7 @@ impl Difference {
 }
 
 impl DifferenceTest {
-    /// Least possible p value of the test for any values. Few clusters have few patterns of signs.
+    /// Least p value that this test can give. A sign-flip test of few clusters has few patterns of signs, so its least p value is large.
     ///
     /// ```
     /// use taceva_metrics::DifferenceTest;

@@ -1,11 +1,11 @@
-//! Line through the differences of two methods over their means.
+//! Least-squares line of the difference of two methods against their mean.
 
 use crate::count::as_f64;
 use crate::distributions::student_t;
 use crate::exact::merge::Merge;
 use crate::exact::{Dyadic, ExactSum, Moments};
 
-/// Exact sums for a line through the differences d of pairs over their means m, except the sums of d. Sums of parts merge in any order.
+/// Exact sums for a line of the difference d of a pair against its mean m, without the sums of d alone. Sums of shards merge in any order.
 ///
 /// ```
 /// use taceva_metrics::{DifferenceLine, Moments};
@@ -21,7 +21,7 @@ use crate::exact::{Dyadic, ExactSum, Moments};
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DifferenceLine {
-    /// Σ m, Σ m² and Σ m d.
+    /// Σ m, Σ m² and Σ m d over all pairs, with the mean m and the difference d of a pair.
     pub(crate) sums: [ExactSum; 3],
 }
 
@@ -35,16 +35,16 @@ pub struct DifferenceLine {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Proportional {
-    /// Slope of the difference over the mean of both methods.
+    /// Change of the difference per unit of the mean of both methods.
     pub slope: f64,
     /// Standard error of the slope, for independent pairs.
     pub standard_error: f64,
-    /// p value of the slope, for independent pairs.
+    /// p value of the hypothesis that the slope is 0, for independent pairs.
     pub p: f64,
 }
 
 impl DifferenceLine {
-    /// Adds a pair of finite values.
+    /// Adds a pair of finite values, one of each method.
     pub fn add(&mut self, one: f64, other: f64) {
         let (mean, difference) = (f64::midpoint(one, other), one - other);
         let [of_means, squares, shared] = &mut self.sums;
@@ -53,12 +53,13 @@ impl DifferenceLine {
         shared.add_product(mean, difference);
     }
 
-    /// Adds the pairs of another part.
+    /// Adds the pairs of `other`.
     pub fn merge(&mut self, other: &DifferenceLine) {
         self.sums.merge(&other.sums);
     }
 
-    /// Least-squares line, with the sums of the same differences; `None` for fewer than three pairs, or if all means are equal.
+    /// Slope of the least-squares line; `differences` holds the differences of the same pairs. `None` for fewer than three pairs, or if all means are
+    /// equal.
     #[must_use]
     pub fn proportional(&self, differences: &Moments) -> Option<Proportional> {
         let n = differences.n;
@@ -86,7 +87,7 @@ impl DifferenceLine {
     }
 }
 
-/// p value of a slope. With a standard error of 0, 1 for a slope of 0 and 0 for any other slope.
+/// p value of the hypothesis that the true slope is 0. If the standard error is 0, a slope of 0 has p = 1, and any other slope has p = 0.
 pub(crate) fn chance(slope: f64, standard_error: f64, freedom: f64) -> f64 {
     match standard_error > 0.0 {
         true => 2.0 * student_t::above(slope.abs() / standard_error, freedom),

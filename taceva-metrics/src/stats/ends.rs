@@ -10,9 +10,9 @@ use crate::score::{COVERAGE, Scale};
 /// An estimate before its interval is computed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Estimated {
-    /// The value.
+    /// Value of the estimate.
     pub(crate) value: f64,
-    /// Range of possible values.
+    /// Range of the values that the quantity may have.
     pub(crate) range: Range,
     /// Number of samples of the estimate.
     pub(crate) samples: u64,
@@ -27,13 +27,13 @@ pub(crate) struct Moved {
     pub(crate) freedom: f64,
     /// Number of clusters with samples.
     pub(crate) clusters: usize,
-    /// Standard error and degrees of freedom on the unbounded scale, if computed there.
+    /// Standard error and degrees of freedom on the scale of a logarithm or of logarithmic odds; `None` if not computed there.
     pub(crate) carried: Option<[f64; 2]>,
 }
 
 impl Moved {
-    /// t times the standard error on the unbounded scale, as computed there or to first order. `slope` is the derivative of that scale at
-    /// the value.
+    /// Half-width on the unbounded scale: Student's t times the standard error. If the standard error is unknown there, `slope` converts it to first
+    /// order: the derivative of that scale at the value.
     fn step(&self, slope: f64) -> f64 {
         let first_order = || [self.standard_error * slope, self.freedom];
         let [error, freedom] = self.carried.unwrap_or_else(first_order);
@@ -49,7 +49,7 @@ impl Moved {
     }
 }
 
-/// Both ends and their scale.
+/// Lower and upper end of an interval, and the scale on which they were computed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ends {
     pub(crate) low: f64,
@@ -59,20 +59,20 @@ pub(crate) struct Ends {
     pub(crate) freedom: f64,
 }
 
-/// Ratio of distances below which the logarithm is replaced by its tangent.
+/// Least ratio of two distances whose logarithm is used. A smaller ratio uses the tangent of the logarithm at this ratio.
 const TANGENT: f64 = 0.7;
 
 impl Estimated {
     /// 95 % interval of an estimate with the variation `moved`.
     ///
-    /// With s the standard error and h = t(freedom) × s, the ends are value ± h for a range without bounds. For a bound at distance d, with s and t
-    /// of the logarithm of d, the ends are d e^(±h) from the bound. Between two bounds the same formula applies to the odds of the value. If s is
-    /// known only in the unit of the quantity, the logarithm of d has the standard error s / d to first order. For a quantity that may equal a bound,
-    /// value ± h is cut at the bound. Shares p use Wilson's interval with t for z and n* = p (1 − p) / s² samples for n, at most the actual number.
-    /// If all shares are 0, or all are 1, n* is the number of clusters.
+    /// Let h be Student's t times the standard error s. Without bounds the ends are value ± h. With one bound at distance d, the ends are d e^(±h)
+    /// from the bound, with s of the logarithm of d. With two bounds, the same formula applies to the odds of the value. If s is known only in the
+    /// unit of the quantity, the logarithm of d has the standard error s / d to first order. For a quantity that may equal a bound, value ± h is cut
+    /// at the bound. A share p has Wilson's interval with t for z. Its number of samples is n* = p (1 − p) / s², at most the actual number. If p is
+    /// 0 or 1, n* is the number of clusters.
     ///
     /// # Errors
-    /// [`UndefinedReason::AtEnd`] if the value is at an end of its range, with and without any cluster;
+    /// [`UndefinedReason::AtEnd`] if the value is at an end of its range and the standard error is 0;
     /// [`UndefinedReason::Overflow`] if an end is beyond the range of binary64.
     ///
     /// # Reference
@@ -126,11 +126,11 @@ impl Estimated {
         }
     }
 
-    /// Distance of `other`, the score without a cluster, from the value on the unbounded scale: the logarithm of a distance or of odds.
-    /// `None` if the quantity has no unbounded scale, or the value is at an end.
+    /// Distance from the value to `other` on the unbounded scale: the logarithm of a distance or of odds. `other` is another score, such as the score
+    /// without one cluster. `None` if the quantity has no unbounded scale, or the value is at an end.
     ///
-    /// Below [`TANGENT`] the logarithm of a distance is replaced by its tangent. If one cluster causes most of an error, the other clusters may
-    /// give any small number, which does not describe their errors.
+    /// Below [`TANGENT`] the logarithm of a distance is replaced by its tangent. If one cluster causes most of an error, the score without this
+    /// cluster may be very small. Its logarithm would then not describe the other errors.
     pub(crate) fn carry(&self, other: f64) -> Option<f64> {
         let [least, greatest] = self.range.ends();
         let below = || (other - least) / (self.value - least);
@@ -150,7 +150,7 @@ impl Estimated {
         Some(carried).filter(|carried| carried.is_finite())
     }
 
-    /// Ends limited to the range, and on both sides of the value in spite of rounding and cuts.
+    /// Ends limited to the range of the quantity. The value stays between the ends in spite of rounding and cuts.
     pub(crate) fn within(&self, [low, high]: [f64; 2], scale: Scale, freedom: f64) -> Ends {
         let [least, greatest] = self.range.ends();
         Ends {

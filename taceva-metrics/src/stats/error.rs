@@ -17,7 +17,7 @@ use crate::score::value::{InapplicableReason, UndefinedReason};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ComparisonError {
-    /// One side has no value, or no interval.
+    /// The score of one side has no value, or no interval.
     Undefined {
         /// Side without a value or an interval.
         side: Side,
@@ -56,7 +56,7 @@ pub enum ComparisonError {
         /// Number of clusters found.
         have: usize,
     },
-    /// A term that cannot be summed.
+    /// A sample has a term that is not finite and cannot be summed.
     Term {
         /// Cluster of the term.
         cluster: String,
@@ -65,9 +65,9 @@ pub enum ComparisonError {
     },
     /// A score that is not finite.
     Score(f64),
-    /// A standard error that is not finite and at least 0.
+    /// A standard error that is infinite, NaN or negative.
     StandardError(f64),
-    /// Degrees of freedom that are not finite and at least 1.
+    /// Degrees of freedom that are infinite, NaN or below 1.
     Freedom(f64),
     /// An interval that does not contain its score.
     Ends {
@@ -76,9 +76,9 @@ pub enum ComparisonError {
         /// Lower and upper end.
         ends: [f64; 2],
     },
-    /// The scores are equal for every choice of clusters, so the variation is unknown.
+    /// The difference does not vary between clusters, so its uncertainty is unknown.
     NoSpread,
-    /// A margin of equivalence that is not above 0 and finite.
+    /// A margin of equivalence that is infinite, NaN, negative or 0.
     Margin(f64),
     /// A p value outside 0..=1.
     Probability {

@@ -10,7 +10,7 @@ use crate::score::least::LEAST_CLUSTERS;
 use crate::score::value::{InapplicableReason, UndefinedReason, Value};
 use crate::score::{COVERAGE, Interval, Scale, Score};
 
-/// A score, its variation between clusters, and the number of clusters.
+/// A score, its standard error with degrees of freedom, and the scale of its interval.
 ///
 /// ```
 /// use taceva_metrics::Estimate;
@@ -25,7 +25,7 @@ pub struct Estimate {
     shape: Shape,
 }
 
-/// Scale of an interval, with the step of each end per unit of t, downwards and upwards.
+/// Scale of an interval, with a step down and a step up on this scale. An end is t steps from the score, with Student's t.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Shape {
     /// Scale of the score itself.
@@ -38,7 +38,7 @@ enum Shape {
     Share { samples: f64 },
 }
 
-/// Stated 95 % interval, for an [`Estimate`] without a [`Score`].
+/// 95 % interval with given ends, for an [`Estimate`] without a [`Score`].
 ///
 /// ```
 /// use taceva_metrics::{Estimate, Scale, StatedInterval};
@@ -57,7 +57,7 @@ pub struct StatedInterval {
     pub clusters: usize,
     /// Scale on which the ends are symmetric about the value.
     pub scale: Scale,
-    /// Standard error, in the unit of the score; `None` for the half-width divided by t.
+    /// Standard error, in the unit of the score. `None` stands for half the width of the interval, divided by Student's t.
     pub standard_error: Option<f64>,
 }
 
@@ -118,10 +118,10 @@ impl Estimate {
         })
     }
 
-    /// Estimate from a value and its stated 95 % interval.
+    /// Estimate from a value and its 95 % interval.
     ///
     /// # Errors
-    /// The errors of [`try_new`](Estimate::try_new). Also [`ComparisonError::Freedom`] if the degrees of freedom are not finite and at least 1, and
+    /// The errors of [`try_new`](Estimate::try_new). Also [`ComparisonError::Freedom`] if the degrees of freedom are not finite or below 1, and
     /// [`ComparisonError::Ends`] if the interval does not contain the value.
     pub fn try_from_interval(
         value: f64,
@@ -255,7 +255,7 @@ impl Estimate {
     }
 }
 
-/// Converts a computed interval to a stated interval.
+/// Given interval from a computed interval; `None` for an interval without ends, clusters, scale or degrees of freedom.
 fn stated(interval: &Interval) -> Option<StatedInterval> {
     let (ends, freedom) = (interval.ends()?, interval.freedom()?);
     let stated = StatedInterval::new(ends, freedom, interval.clusters()?).on(interval.scale()?);
@@ -267,7 +267,7 @@ fn freedom_of(clusters: usize) -> f64 {
     f64::from(u32::try_from(clusters.saturating_sub(1)).unwrap_or(u32::MAX))
 }
 
-/// Steps of an interval whose ends are symmetric in the logarithm of the distance from 0 or from 1.
+/// Logarithmic scale with these `ends`, for the distance of the value from 0 or from 1. The more symmetric of both is returned.
 fn logarithmic(value: f64, ends: [f64; 2], t: f64) -> Option<Shape> {
     let about = |end: f64| {
         let distances = ends.map(|of| (of - end) / (value - end));
@@ -280,7 +280,7 @@ fn logarithmic(value: f64, ends: [f64; 2], t: f64) -> Option<Shape> {
     nearest([about(0.0), about(1.0)])
 }
 
-/// Steps of an interval whose ends are symmetric in the logarithm of the odds of value / width, for a width of 1 or 2.
+/// Scale of the logarithm of the odds of value / width with these `ends`, for a width of 1 or 2. The more symmetric of both is returned.
 fn odds(value: f64, ends: [f64; 2], t: f64) -> Option<Shape> {
     let within = |width: f64| {
         let odds = |of: f64| of / (width - of);
@@ -293,14 +293,14 @@ fn odds(value: f64, ends: [f64; 2], t: f64) -> Option<Shape> {
     nearest([within(1.0), within(2.0)])
 }
 
-/// The more symmetric of two shapes.
+/// Shape with the smaller asymmetry, which is the first number of each pair.
 fn nearest(shapes: [Option<(f64, Shape)>; 2]) -> Option<Shape> {
     let found = shapes.into_iter().flatten();
     let nearest = found.min_by(|(one, _), (other, _)| one.total_cmp(other));
     nearest.map(|(_, shape)| shape)
 }
 
-/// Number of samples for which Wilson's interval has these ends: (p − L)² = t² L (1 − L) / n for the share p at either end L.
+/// Wilson's interval of the share p with these ends. Its number of samples n follows from (p − L)² = t² L (1 − L) / n, for the end L farther from p.
 fn share(value: f64, [low, high]: [f64; 2], t: f64) -> Option<Shape> {
     let end = if value - low > high - value {
         low

@@ -3,14 +3,14 @@
 use super::error::ComparisonError;
 use crate::exact::number_key::ranked;
 
-/// Level of a family of tests: the probability of any difference shown by chance.
+/// Level of a family of tests: greatest probability that any test shows a difference by chance.
 pub(super) const LEVEL: f64 = 0.05;
 
-/// Adjusts the p values of a family of tests and returns them in the given order. Thresholds for adjusted values limit the probability of
-/// any false rejection in the whole family.
+/// Adjusts the p values of a family of tests and returns them in the given order. If all adjusted values up to α are rejected, the probability of any
+/// false rejection in the family is at most α.
 ///
-/// With p₍₁₎ ≤ … ≤ p₍ₘ₎ the adjusted values are max over i ≤ j of min(1, (m − i + 1) p₍ᵢ₎). Adjusted values increase with p, and
-/// equal p values have equal adjusted values.
+/// The j-th smallest of m p values has the adjusted value max over i ≤ j of min(1, (m − i + 1) p₍ᵢ₎). Here p₍ᵢ₎ is the i-th smallest.
+/// Adjusted values increase with p, and equal p values have equal adjusted values.
 ///
 /// ```
 /// let adjusted = taceva_metrics::holm(&[0.01, 0.04, 0.03])?;
@@ -28,21 +28,21 @@ pub fn holm(p_values: &[f64]) -> Result<Vec<f64>, ComparisonError> {
     Ok(steps.iter().map(|step| step.adjusted_p).collect())
 }
 
-/// Step of one test of a family in Holm's procedure.
+/// Decision of Holm's procedure on one test of a family.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Step {
     /// Adjusted p value.
     pub(super) adjusted_p: f64,
-    /// True if the test is rejected. Verdict, p value and interval follow this decision.
+    /// True if the null hypothesis is rejected. Verdict, p value and interval follow this decision.
     pub(super) is_rejected: bool,
     /// Level of the decision and of the interval.
     pub(super) level: f64,
 }
 
-/// Step of each test, in the given order. The whole family errs with probability `level`.
+/// Decision on each test, in the given order. The probability of any false rejection in the family is at most `level`.
 ///
-/// The i-th smallest of m p values is decided at level / (m − i + 1). The first accepted test ends the procedure: all further tests get
-/// its level, at which they are accepted too because of their larger p values.
+/// The i-th smallest of m p values is decided at level / (m − i + 1). After the first test that is not rejected, all tests get the level of that
+/// test. They are not rejected either, because their p values are larger.
 ///
 /// # Errors
 /// The errors of [`holm`].

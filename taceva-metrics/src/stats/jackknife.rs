@@ -21,7 +21,7 @@ const LEAST_FREEDOM: f64 = 3.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct LeftOut {
-    /// Number of samples of the cluster, at least one.
+    /// Number of samples of the left-out cluster, at least one.
     pub count: u64,
     /// Score of all other clusters.
     pub value: Result<f64, UndefinedReason>,
@@ -55,7 +55,7 @@ impl Interval {
     }
 }
 
-/// Interval of an estimate from the scores with one cluster left out each.
+/// Interval of `value` from the scores in `left_out`, each without one cluster.
 pub(crate) fn interval(value: f64, range: Range, left_out: &[LeftOut]) -> Interval {
     let counts = left_out.iter().map(|cluster| cluster.count);
     let estimated = Estimated {
@@ -91,8 +91,8 @@ pub(crate) fn interval(value: f64, range: Range, left_out: &[LeftOut]) -> Interv
 
 /// Standard error and degrees of freedom of the jackknife on the unbounded scale of the score; `None` unless all scores have a value there.
 ///
-/// A score of few clusters is skewed: a cluster with large errors raises the score more by its presence than it lowers the score by its
-/// absence. The standard error would then depend on the value of the score; on the unbounded scale the standard error does not (`docs/coverage.md`).
+/// A score of few clusters has a skewed distribution, because one cluster may have large errors. The standard error then depends on the score itself.
+/// On the unbounded scale the standard error does not (`docs/coverage.md`).
 fn carried(estimated: &Estimated, left_out: &[LeftOut]) -> Option<[f64; 2]> {
     let carry = |cluster: &LeftOut| {
         let value = estimated.carry(cluster.value.ok()?)?;
@@ -113,11 +113,11 @@ pub(crate) fn standard_error(value: f64, left_out: &[LeftOut]) -> Result<f64, Un
 
 /// Standard error of `value`, the score of all clusters, and its degrees of freedom.
 ///
-/// With n samples in g clusters, m_j of them in cluster j, h_j = n / m_j, the score θ, and the score θ_(−j) without cluster j: the pseudo-values are
-/// h_j θ − (h_j − 1) θ_(−j), and the variance is the mean of z_j², z_j² = (pseudo_j − mean)² / (h_j − 1).
+/// Let the g clusters have n samples, m_j of them in cluster j, and h_j = n / m_j. From the score θ and the score θ_(−j) without cluster j follows
+/// the pseudo-value h_j θ − (h_j − 1) θ_(−j). The variance is the mean over the clusters of z_j² = (pseudo-value − mean pseudo-value)² / (h_j − 1).
 ///
 /// A variance from few clusters is itself uncertain. With κ = mean(z⁴) / mean(z²)² the variance has 2 g / (κ − (g − 3)/(g − 1)) degrees of freedom.
-/// Normal pseudo-values have κ = 3 and g − 1 degrees. The number is at most g − 1 and at least [`LEAST_FREEDOM`].
+/// Normal pseudo-values have κ = 3, which gives g − 1 degrees. The number is at most g − 1 and at least [`LEAST_FREEDOM`].
 ///
 /// # Reference
 /// Busing, Meijer and van der Leeden, Delete-m jackknife for unequal m, Statistics and Computing 9 (1999); Satterthwaite,
@@ -166,7 +166,7 @@ fn moved(value: f64, left_out: &[LeftOut]) -> Result<Moved, UndefinedReason> {
     })
 }
 
-/// Interval about `value` from the delta-method variance `variance` over `clusters` clusters.
+/// Interval about `value` with its delta-method `variance` over a number of `clusters`.
 pub(crate) fn delta_interval(value: f64, range: Range, variance: f64, clusters: usize) -> Interval {
     let freedom = u32::try_from(clusters.saturating_sub(1)).expect("at most 64 clusters");
     let moved = Moved {
@@ -203,7 +203,7 @@ pub(crate) fn delta_interval(value: f64, range: Range, variance: f64, clusters: 
 mod tests {
     use super::*;
 
-    /// Mean of `clusters`, and the means with one cluster left out each.
+    /// Mean of all values, and for each cluster the mean of the values outside it.
     fn means(clusters: &[&[f64]]) -> (f64, Vec<LeftOut>) {
         let all: Vec<f64> = clusters.concat();
         let mean = |sum: f64, n: usize| sum / as_f64(n as u64);

@@ -2,7 +2,7 @@
 
 use super::bootstrap::PoissonBootstrap;
 
-/// Method for the interval of a score. Both methods vary clusters: contact points, or samples that the caller declares independent.
+/// Method for the interval of a score, from its variation over clusters: contact points, or samples that the caller declares independent.
 ///
 /// ```
 /// use taceva_metrics::{IntervalMethod, PoissonBootstrap};

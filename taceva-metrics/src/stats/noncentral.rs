@@ -6,10 +6,11 @@ use crate::elementary::exponential;
 /// Risk of a false alarm, and risk of a missed detection.
 const RISK: f64 = 0.05;
 
-/// δ(ν): smallest difference from zero, in standard deviations, with 5 % risk of a false alarm and 5 % risk of a missed detection. The
-/// standard deviation is estimated with `freedom` degrees of freedom.
+/// Smallest detectable difference from zero δ(ν), in standard deviations: 5 % risk of a false alarm, and 5 % risk of a missed detection. The standard
+/// deviation is estimated with ν = `freedom` degrees of freedom.
 ///
-/// δ(ν) is the noncentrality of t′ at which P(t′ ≤ t) = 5 % for the 95 % quantile t of Student's distribution; 3.29 for a known deviation.
+/// Let t be the 95 % quantile of Student's distribution, and t′ noncentral with ν degrees of freedom. δ(ν) is the noncentrality for P(t′ ≤ t) = 5 %.
+/// For a known standard deviation δ is 3.29.
 ///
 /// # Reference
 /// Currie, Pure and Applied Chemistry 67 (1995), 3.7.2; ISO 11843-2, 5.1.
@@ -29,20 +30,20 @@ pub(crate) fn detection_factor(freedom: f64) -> f64 {
     f64::midpoint(low, high)
 }
 
-/// The 95 % quantile of Student's distribution.
+/// The 95 % quantile of Student's distribution with `freedom` degrees of freedom.
 pub(crate) fn critical_factor(freedom: f64) -> f64 {
     quantile(1.0 - 2.0 * RISK, freedom)
 }
 
-/// P(t′ ≤ t) of a noncentral t′ for t ≥ 0, with ν = `freedom` degrees of freedom and the noncentrality δ ≥ 0.
+/// P(t′ ≤ t) of a noncentral t′ with ν = `freedom` and the noncentrality δ, for t ≥ 0 and δ ≥ 0.
 ///
-/// With y = δ² / 2, Poisson's shares pⱼ = e^(−y) yʲ / j! and qⱼ = δ e^(−y) yʲ / (√2 Γ(j + 3/2)) and the incomplete beta function I of
-/// x = t² / (ν + t²) the result is ½ (1 + Σ pⱼ Iₓ(j + ½, ν/2) − Σ qⱼ (1 − Iₓ(j + 1, ν/2))), since Σ qⱼ = 1 − 2 Φ(−δ).
+/// Let y = δ² / 2, pⱼ = e^(−y) yʲ / j! and qⱼ = δ e^(−y) yʲ / (√2 Γ(j + 3/2)). Let Iₓ be the incomplete beta function at x = t² / (ν + t²). The
+/// probability is ½ (1 + Σ pⱼ Iₓ(j + ½, ν/2) − Σ qⱼ (1 − Iₓ(j + 1, ν/2))). Here Σ qⱼ = 1 − 2 Φ(−δ) is used, with the normal distribution Φ.
 ///
 /// # Reference
 /// Lenth, Algorithm AS 243, Applied Statistics 38 (1989).
 fn below(t: f64, freedom: f64, noncentrality: f64) -> f64 {
-    /// Greatest number of terms, far beyond the mode of the Poisson weights.
+    /// Greatest number of terms of the sum, far beyond its largest term.
     const MOST: u32 = 10_000;
     let half = freedom / 2.0;
     let x = t * t / (freedom + t * t);

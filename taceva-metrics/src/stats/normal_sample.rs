@@ -25,7 +25,7 @@ const SHARE: f64 = 0.95;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct NormalSample {
-    /// Mean.
+    /// Mean of the values.
     pub mean: f64,
     /// Degrees of freedom of the uncertainty of the mean.
     pub mean_freedom: f64,
@@ -33,7 +33,7 @@ pub struct NormalSample {
     pub sd: f64,
     /// Degrees of freedom of the standard deviation.
     pub freedom: f64,
-    /// Number of independent values whose mean has the same uncertainty.
+    /// Effective sample size: the mean of so many independent values would have the same uncertainty.
     pub worth: f64,
 }
 
@@ -55,7 +55,7 @@ impl NormalSample {
         })
     }
 
-    /// Sample of clustered values, which depend on each other within a cluster; `None` without any variation.
+    /// Sample of clustered values, which depend on each other within a cluster; `None` if the values do not vary.
     ///
     /// The standard deviation includes both variance components, with degrees of freedom by Satterthwaite. Interval ends are therefore
     /// approximate, and too narrow if clusters differ in spread.
@@ -128,7 +128,7 @@ impl NormalSample {
     }
 }
 
-/// Normal quantile of the limits, 1.96.
+/// Half-width of the limits in standard deviations, 1.96.
 fn z() -> f64 {
     normal::quantile(f64::midpoint(1.0, SHARE))
 }

@@ -28,31 +28,32 @@ pub struct OneWay {
     pub groups: u64,
     /// Mean of all readings.
     pub mean: f64,
-    /// Standard uncertainty of the mean, with groups − 1 degrees of freedom. Readings of one group share a deviation, so large groups weigh less.
+    /// Standard uncertainty of the mean, with groups − 1 degrees of freedom. Readings of one group have a common deviation, so large groups increase
+    /// this uncertainty.
     pub mean_uncertainty: f64,
     /// Mean square between groups.
     pub mean_square_between: f64,
     /// Mean square within groups.
     pub mean_square_within: f64,
-    /// Effective number of readings of a group in the component between groups.
+    /// Effective number of readings per group, in the formula for the variance between groups.
     pub group_size: f64,
     /// Standard deviation within groups.
     pub within: f64,
     /// Degrees of freedom of `within`: readings − groups.
     pub within_freedom: f64,
-    /// Standard deviation between groups; 0 for a negative component.
+    /// Standard deviation between groups; 0 if the estimated variance is negative.
     pub between: f64,
-    /// Degrees of freedom of `between`; `None` for a component that is not above 0.
+    /// Degrees of freedom of `between`; `None` if the estimated variance is not above 0.
     pub between_freedom: Option<f64>,
     /// Variance between groups, before a negative estimate is replaced by 0.
     pub between_variance_raw: f64,
-    /// Standard deviation of a single reading, from both components.
+    /// Standard deviation of a single reading, from the variances between and within groups.
     pub total: f64,
-    /// Degrees of freedom of `total`; `None` without variation.
+    /// Degrees of freedom of `total`; `None` if the readings do not vary.
     pub total_freedom: Option<f64>,
 }
 
-/// Exact sums of groups, which determine the variance components. Sums of different groups merge in any order.
+/// Exact sums of the readings of groups, which determine the variance components. Sums of different groups merge in any order.
 ///
 /// ```
 /// use taceva_metrics::{OneWay, OneWaySums};
@@ -70,9 +71,9 @@ pub struct OneWaySums {
     squared_sizes: u64,
     sum: ExactSum,
     squares: ExactSum,
-    /// Σ x² of the groups with one reading.
+    /// Sum of the squared readings of all groups with one reading.
     singles: ExactSum,
-    /// Σ (Σ x)² of the larger groups by size, so that each size needs only one quotient.
+    /// For each larger group size, the sum of (Σ x)² over the groups of this size, with readings x. One division by the size then suffices.
     of_sizes: BTreeMap<u64, Dyadic>,
 }
 

@@ -1,4 +1,4 @@
-//! Pairs of equal clusters of two models.
+//! Clusters of two models, paired by name.
 
 use super::cluster_sums::{ClusterSum, ClusterSums};
 use super::error::ComparisonError;
@@ -8,7 +8,7 @@ use crate::exact::{Dyadic, ExactSum};
 use crate::score::least::LEAST_CLUSTERS;
 use crate::score::value::UndefinedReason;
 
-/// Difference of means, with its jackknife standard error over clusters.
+/// Difference of the mean terms of A and B, with its jackknife standard error over clusters.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MeanDifference {
     pub(super) value: f64,
@@ -17,7 +17,7 @@ pub(super) struct MeanDifference {
     pub(super) freedom: f64,
 }
 
-/// Pairs of clusters with samples.
+/// Clusters with samples, paired by name for both sides.
 pub(super) struct PairedClusters {
     counts: Vec<u64>,
     differences: Vec<ExactSum>,
@@ -71,7 +71,7 @@ impl PairedClusters {
         &self.differences
     }
 
-    /// Difference of the means over all samples, with its jackknife standard error over clusters.
+    /// Difference of the mean terms of A and B over all samples, with its jackknife standard error over clusters.
     pub(super) fn mean_difference(&self) -> Result<MeanDifference, ComparisonError> {
         let clusters = self.counts.len();
         if clusters < LEAST_CLUSTERS {

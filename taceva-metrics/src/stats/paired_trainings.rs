@@ -12,9 +12,9 @@ use super::trainings::TrainingSpread;
 
 /// Compares two models on the same samples, with the variation between trainings.
 ///
-/// D is the difference of the means over all samples, and s its standard error between G clusters (jackknife, G − 1 degrees of freedom). The standard
-/// errors between trainings are sᵢ. t = D / √(s² + Σ sᵢ²) follows Student's distribution, with degrees of freedom by Welch and Satterthwaite. A
-/// sign-flip test is not used, because signs of clusters cannot show the effect of another training.
+/// Let D be the difference of the means over all samples. Let s be its jackknife standard error over G clusters, with G − 1 degrees of freedom. Let
+/// sᵢ be the standard errors between trainings, from `spreads`. Then t = D / √(s² + Σ sᵢ²) follows Student's distribution, with degrees of freedom by
+/// Welch and Satterthwaite. A sign-flip test is not used, because signs of clusters cannot show the effect of another training.
 ///
 /// ```
 /// use taceva_metrics::{ClusterSums, Sides, TrainingSpread, paired_over_trainings};

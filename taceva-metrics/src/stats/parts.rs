@@ -8,7 +8,8 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// Combines two parts: s² = s₁² + s₂² with s⁴ / (s₁⁴/ν₁ + s₂⁴/ν₂) degrees of freedom. A part of 0 changes no bit.
+    /// Combines two independent parts with standard errors s₁ and s₂ and degrees of freedom ν₁ and ν₂. The result s² = s₁² + s₂² has s⁴ / (s₁⁴/ν₁ +
+    /// s₂⁴/ν₂) degrees of freedom. A part of 0 leaves the other part unchanged.
     ///
     /// # Reference
     /// Welch, The generalization of Student's problem, Biometrika 34 (1947); JCGM 100:2008 (GUM), G.4.1.

@@ -1,6 +1,6 @@
 //! Poisson draws with mean 1, by exact inversion.
 
-/// ⌊2⁶⁴ P(X ≤ k)⌋ of a Poisson variable X with mean 1, k = 0…19; P(X > 20) is below 2⁻⁶⁴.
+/// Thresholds ⌊2⁶⁴ P(X ≤ k)⌋ for k = 0…19, with a Poisson variable X of mean 1. P(X > 20) is below 2⁻⁶⁴.
 const THRESHOLDS: [u64; 20] = [
     0x5e2d_58d8_b3bc_df1a,
     0xbc5a_b1b1_6779_be35,
@@ -24,7 +24,7 @@ const THRESHOLDS: [u64; 20] = [
     0xffff_ffff_ffff_fffd,
 ];
 
-/// Weight for 64 uniform random bits: the least k with bits < 2⁶⁴ P(X ≤ k).
+/// Poisson weight of mean 1 for 64 uniform random bits: the number of thresholds up to `bits`.
 pub(super) fn weight(bits: u64) -> u32 {
     // Three draws in four are below 2, so a linear search is shorter than a bisection.
     let reached = THRESHOLDS

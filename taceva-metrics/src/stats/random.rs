@@ -1,8 +1,8 @@
-//! Random bits by counter: each draw is a function of a seed and its purpose, so the order of draws has no effect.
+//! Random bits from a hash of seed and position, so the order of draws has no effect.
 
 use taceva_core::random::mix;
 
-/// 64 random bits of the pair `(major, minor)` under `seed`: mix(mix(mix(seed) ⊕ major) ⊕ minor).
+/// 64 random bits of the pair `(major, minor)` under `seed`: mix(mix(mix(seed) ⊕ major) ⊕ minor), with the hash function `mix`.
 pub(super) fn bits(seed: u64, major: u64, minor: u64) -> u64 {
     mix(mix(mix(seed) ^ major) ^ minor)
 }

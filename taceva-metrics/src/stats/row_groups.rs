@@ -8,10 +8,10 @@ use taceva_core::random::mix;
 
 use taceva_core::random::fnv_1a;
 
-/// Number of hashed clusters, for more contact points than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS).
+/// Number of clusters formed by hash, if there are more than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) contact points.
 pub const HASHED_CLUSTERS: usize = 32;
 
-/// Labels, with the rows of each name.
+/// Cluster labels of a batch, with the rows of each cluster.
 pub(crate) struct Grouped<'a> {
     labels: Cow<'a, Labels>,
     seed: u64,
@@ -30,18 +30,18 @@ impl<'a> Grouped<'a> {
         }
     }
 
-    /// The distinct names.
+    /// Distinct names of clusters.
     pub(crate) fn names(&self) -> &[String] {
         self.labels.names()
     }
 
-    /// Rows of each name.
+    /// Rows grouped by name.
     pub(crate) fn by_name(&self) -> &Groups {
         let find = || Groups::new(&self.labels, self.names().len(), |name, _| name);
         self.by_name.get_or_init(find)
     }
 
-    /// Stores known groups of rows, by hash or by name.
+    /// Stores groups that are computed already, grouped by hash if `is_by_hash`, otherwise by name.
     pub(crate) fn know(&self, is_by_hash: bool, groups: &Groups) {
         let cell = match is_by_hash {
             true => &self.by_hash,
@@ -50,7 +50,7 @@ impl<'a> Grouped<'a> {
         cell.get_or_init(|| groups.clone());
     }
 
-    /// Rows of each cluster after assigning names to clusters by hash.
+    /// Rows grouped by the hash of their name.
     pub(crate) fn by_hash(&self) -> &Groups {
         let of_name = |_, name: &str| bucket(self.seed, name);
         let find = || Groups::new(&self.labels, HASHED_CLUSTERS, of_name);
@@ -65,7 +65,7 @@ pub(super) fn bucket(seed: u64, name: &str) -> usize {
     usize::try_from(bucket).expect("below 32")
 }
 
-/// Rows of a batch grouped by cluster, so that a batch accesses a cluster's sums only once.
+/// Rows of a batch, grouped by cluster. The sums of each cluster are then accessed once per batch.
 #[derive(Clone, Debug)]
 pub(crate) struct Groups {
     rows: Vec<u32>,
@@ -73,7 +73,7 @@ pub(crate) struct Groups {
 }
 
 impl Groups {
-    /// Rows by the group of their name, in batch order within a group.
+    /// Groups the rows of a batch: `group_of` returns the group of a name. Rows of a group stay in batch order.
     fn new(points: &Labels, groups: usize, group_of: impl Fn(usize, &str) -> usize) -> Groups {
         let names = points.names().iter().enumerate();
         let group_of_name: Vec<usize> = names.map(|(at, name)| group_of(at, name)).collect();
@@ -96,7 +96,7 @@ impl Groups {
         Groups { rows, ends }
     }
 
-    /// The same groups for rows that are sorted by group.
+    /// The same groups after the rows of the batch are sorted by group.
     pub(crate) fn side_by_side(&self) -> Groups {
         Groups {
             rows: (0..).take(self.rows.len()).collect(),
@@ -109,7 +109,7 @@ impl Groups {
         &self.rows
     }
 
-    /// Groups with at least one row.
+    /// Groups with at least one row: each with its index and its rows.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (usize, &[u32])> {
         let starts = std::iter::once(0).chain(self.ends.iter().copied());
         let bounds = starts.zip(&self.ends).enumerate();

@@ -11,15 +11,15 @@ use crate::exact::Dyadic;
 
 /// Test of equal errors of two models on the same samples.
 ///
-/// Let D_c = Σ|d_A| − Σ|d_B| for the errors d of models A and B in cluster c, and T = Σ_c D_c. For equal models each D_c could have the
-/// opposite sign with equal probability, so |T| has the distribution of |T*| = |Σ_c ± D_c|. Over N random patterns of signs,
-/// p = (1 + #{|T*| ≥ |T|}) / (1 + N). If the number of all patterns of G clusters, 2^G, is at most N, p is the share of all
-/// patterns with |T*| ≥ |T|. Sums and comparisons are exact, so ties are exact.
+/// Let D_c = Σ|d_A| − Σ|d_B| over the samples of cluster c, and T = Σ_c D_c. The errors of models A and B are d_A and d_B. If the models are equal,
+/// each D_c could have the opposite sign with equal probability. |T| then has the distribution of |T*| = |Σ_c ± D_c|. For N random patterns of signs,
+/// p = (1 + #{|T*| ≥ |T|}) / (1 + N). If G clusters have at most N patterns in all, 2^G, then p is the share of these patterns with |T*| ≥ |T|. Sums
+/// and comparisons are exact, so ties are exact.
 ///
-/// Flip i negates the c-th cluster, in the order of names, if bit c mod 64 of the hash of (seed, i, ⌊c / 64⌋) is set. The result depends
+/// Random pattern i negates the c-th cluster, in the order of names, by one bit: bit c mod 64 of the hash of (seed, i, ⌊c / 64⌋). The result depends
 /// only on the samples, the seed and the number of flips. Exchanging A and B does not change p.
 ///
-/// Correct predictions of a success rate are compared in the same way, board by board. Σ is then the number of correct predictions.
+/// For a success rate, a cluster is a board, and the sums over its samples are numbers of correct predictions.
 ///
 /// ```
 /// use taceva_metrics::{ClusterSums, Sides, SignFlip};
@@ -47,7 +47,7 @@ pub struct SignFlip {
 }
 
 impl Default for SignFlip {
-    /// 10,000 flips, seed 0.
+    /// Test with at most 10,000 patterns of signs and seed 0.
     fn default() -> SignFlip {
         SignFlip {
             flips: 10_000,
@@ -71,10 +71,9 @@ impl SignFlip {
 
     /// Difference of the means over all samples. The standard error comes from the jackknife over clusters, the interval from the sign-flip test.
     ///
-    /// The interval contains the differences δ whose p value is above the level. If A were worse by δ everywhere, D_c minus δ times the number of
-    /// samples of c could have the opposite sign. A pattern of signs has two mean differences: of the negated clusters and of the
-    /// others. Below the observed difference the pattern counts from the smaller mean on; above, up to the larger mean. Each end is
-    /// therefore one of these means, found by counting.
+    /// The interval contains the differences δ whose p value is above the level. For each δ, the test flips the signs of D_c − δ n_c, with n_c
+    /// samples in cluster c. A pattern of signs has two mean differences: of the negated clusters and of the other clusters. The pattern counts for p
+    /// exactly if δ is between both means. Each end is therefore one of these means, found by counting.
     ///
     /// # Errors
     /// - [`ComparisonError::Unpaired`] or [`ComparisonError::Counts`] if the clusters of both sides differ in name or number of samples.
@@ -153,14 +152,14 @@ impl SignFlip {
     }
 }
 
-/// Result over all tried patterns.
+/// Result of the sign-flip test over all tried patterns.
 struct Tried {
     test: DifferenceTest,
     p: f64,
     flips: Flips,
 }
 
-/// Clusters for the means over both halves of a pattern.
+/// Clusters, which each pattern of signs divides into two halves.
 struct Halves {
     /// Number of samples, and sum of the terms of A minus sum of the terms of B, for each cluster.
     clusters: Vec<[f64; 2]>,
@@ -178,7 +177,7 @@ impl Halves {
         }
     }
 
-    /// Smaller and larger of the mean differences of negated and other clusters; infinite if one half is empty.
+    /// Mean differences of both halves, the negated clusters and the others, smaller mean first. The means are infinite if one half is empty.
     fn means(&self, is_negated: &dyn Fn(usize) -> bool) -> [f64; 2] {
         let mut halves = [[0.0; 2]; 2];
         for (at, [count, difference]) in self.clusters.iter().enumerate() {
@@ -200,7 +199,7 @@ impl Halves {
 mod tests {
     use super::*;
 
-    /// One sample per cluster, with the errors `error_a` and 1.
+    /// One sample per cluster, with an error of `errors_a` on side A and the error 1 on side B.
     fn sides(errors_a: &[f64]) -> Sides<ClusterSums> {
         let mut sums: Sides<ClusterSums> = Sides::default();
         for (at, &error_a) in errors_a.iter().enumerate() {

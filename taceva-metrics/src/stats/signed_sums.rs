@@ -1,4 +1,4 @@
-//! Exact sums of the same numbers with varying signs, fast enough for ten thousand patterns.
+//! Exact sums of the same numbers under many patterns of signs.
 
 use crate::exact::ExactSum;
 
@@ -9,7 +9,7 @@ pub(super) struct SignedSums {
     width: usize,
 }
 
-/// Magnitude of a sum: digits from the highest, so that lexicographic order is numerical order.
+/// Magnitude of a sum: digits in order, highest digit first, so that lexicographic order is numerical order.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Magnitude(Vec<i64>);
 
@@ -34,7 +34,7 @@ impl SignedSums {
         SignedSums { digits, width }
     }
 
-    /// |Σ ± number|, with − for each number with `is_negated`.
+    /// |Σ ± number|, with a minus sign if `is_negated` is true for the index of the number.
     pub(super) fn magnitude(&self, is_negated: impl Fn(usize) -> bool) -> Magnitude {
         // An `i64` holds the sum of 2³¹ digits.
         let mut sum = vec![0_i64; self.width];

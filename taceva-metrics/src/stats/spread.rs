@@ -4,11 +4,11 @@ use crate::exact::moments::Moments;
 use crate::exact::{Dyadic, ExactSum};
 use crate::score::value::{Finished, UndefinedReason};
 
-/// One bin with rounded statistics, computed once for several spreads.
+/// Rounded statistics of the samples in one bin.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bin {
     n: u64,
-    /// Mean, rounded once.
+    /// Mean of the samples, rounded once.
     pub(crate) mean: f64,
     /// Sum of squared deviations from the exact mean, rounded once.
     squares: f64,
@@ -17,7 +17,7 @@ pub(crate) struct Bin {
 }
 
 impl Bin {
-    /// Bin of these samples; `None` without samples.
+    /// Bin with the samples of `moments`; `None` without samples.
     pub(crate) fn of(moments: &Moments) -> Option<Bin> {
         Some(Bin {
             n: moments.n,
@@ -33,7 +33,7 @@ impl Bin {
     }
 }
 
-/// Rounded means of bins, and the scatter within the bins. Sums of these numbers are exact.
+/// Rounded means of bins, and the scatter within the bins, as exact sums.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Spread {
     means: Moments,
@@ -41,7 +41,7 @@ pub(crate) struct Spread {
     within_squares: ExactSum,
     /// Sum over the bins of the number of samples minus 1.
     within_freedom: u64,
-    /// Sum over the bins of the rounded reciprocal of the number of samples.
+    /// Sum over the bins of 1 / number of samples, each rounded.
     shares: ExactSum,
     /// Sum over the bins of the standard deviation within each bin, with the divisor n.
     deviations: ExactSum,
@@ -93,7 +93,8 @@ impl Spread {
         deviation.ok_or(UndefinedReason::TooFewBins { have, least })
     }
 
-    /// Standard deviation of the bin means by chance alone: √(s² mean(1 / n)), for n samples in a bin and the pooled variance s² within bins.
+    /// Standard deviation of the bin means by chance alone: √(s² × mean of 1 / n over the bins). A bin has n samples, and s² is the pooled variance
+    /// within bins.
     pub(crate) fn noise_floor(&self) -> Finished {
         self.noise_variance().map(f64::sqrt)
     }
@@ -108,7 +109,7 @@ impl Spread {
         Ok((variance - noise).max(0.0).sqrt())
     }
 
-    /// Mean of the standard deviations within each bin, rounded once.
+    /// Mean over the bins of the standard deviation within each bin, rounded once.
     pub(crate) fn within(&self) -> Finished {
         if self.overflow {
             return Err(UndefinedReason::Overflow);

@@ -5,10 +5,10 @@
 
 use std::f64::consts::{FRAC_2_SQRT_PI, PI};
 
-/// Quantile: t for which ±t contains the share `central` of the distribution.
+/// Quantile: t for which ±t contains the share `central` of the distribution with `freedom` degrees of freedom.
 ///
-/// Newton's steps increase towards the quantile, because the probability is concave. The iteration ends at the first step that does not increase. `central`
-/// is in 0..1 and `freedom` above 0.
+/// Newton's method approaches the quantile from below, because the probability is concave. The iteration ends at the first step that does not
+/// increase t. `central` is in 0..1 and `freedom` above 0.
 pub(super) fn quantile(central: f64, freedom: f64) -> f64 {
     climb(freedom, |split| central - split.within)
 }
@@ -20,7 +20,7 @@ pub(super) fn beyond(level: f64, freedom: f64) -> f64 {
     climb(freedom, |split| split.beyond - level)
 }
 
-/// Newton's method from 0, while the steps increase.
+/// Root of `missing` by Newton's method from t = 0, while t increases. `missing` is the probability that ±t does not contain yet.
 fn climb(freedom: f64, missing: impl Fn(&Split) -> f64) -> f64 {
     /// Greatest number of steps; the 95 % quantile needs about ten.
     const MOST_STEPS: usize = 200;
@@ -46,26 +46,26 @@ pub(super) fn upper(t: f64, freedom: f64) -> f64 {
     }
 }
 
-/// P(|T| < t).
+/// P(|T| < |t|) of Student's T.
 pub(super) fn within(t: f64, freedom: f64) -> f64 {
     Split::at(t.abs(), freedom).within
 }
 
-/// Probabilities within and beyond ±t.
+/// Probabilities of Student's T within and beyond ±t.
 struct Split {
-    /// P(|T| < t).
+    /// P(|T| < t) of Student's T.
     within: f64,
-    /// P(|T| ≥ t).
+    /// P(|T| ≥ t) of Student's T.
     beyond: f64,
 }
 
 impl Split {
-    /// Uses the series of the approximately smaller part, so that small p values are accurate.
+    /// Probabilities at `t`. For a large `t` the series gives `beyond`, so that small p values are accurate. Otherwise the series gives `within`.
     ///
     /// # Reference
     /// Abramowitz and Stegun, Handbook of Mathematical Functions, 26.7.1 and 26.5.4, of the incomplete beta function.
     fn at(t: f64, freedom: f64) -> Split {
-        /// Square of four standard deviations, beyond which 1 − within is nearly 0.
+        /// Greatest t² for which the series gives `within`. Beyond four standard deviations, 1 − within loses digits.
         const FAR: f64 = 16.0;
         let square = t * t;
         let half = freedom / 2.0;
@@ -97,7 +97,7 @@ impl Split {
     }
 }
 
-/// Σ (a)ₙ / (c)ₙ xⁿ with rising factorials: 1 + a/c x + a(a + 1)/(c(c + 1)) x² + …, 0 ≤ x < 1.
+/// Hypergeometric series Σ (a)ₙ / (c)ₙ xⁿ with rising factorials: 1 + a/c x + a(a + 1)/(c(c + 1)) x² + …, for 0 ≤ x < 1.
 fn series(mut a: f64, mut c: f64, x: f64) -> f64 {
     let (mut sum, mut term) = (1.0, 1.0);
     loop {
@@ -112,17 +112,17 @@ fn series(mut a: f64, mut c: f64, x: f64) -> f64 {
     }
 }
 
-/// The density at t: Γ((ν + 1)/2) / (√(νπ) Γ(ν/2)) × (1 + t²/ν)^(−(ν + 1)/2).
+/// Density of Student's distribution at t, with ν = `freedom`: Γ((ν + 1)/2) / (√(νπ) Γ(ν/2)) × (1 + t²/ν)^(−(ν + 1)/2).
 fn density(t: f64, freedom: f64) -> f64 {
     let half = freedom / 2.0;
     let decline = power(1.0 / (1.0 + t * t / freedom), half + 0.5);
     gamma_ratio(half) / (freedom * PI).sqrt() * decline
 }
 
-/// Γ(z + 1/2) / Γ(z), z > 0.
+/// Γ(z + 1/2) / Γ(z), for z > 0.
 ///
-/// With w = z − 1/4 the ratio is √w (1 + 1/64 w⁻² − 19/8192 w⁻⁴ + 631/2¹⁹ w⁻⁶ − 174317/2²⁷ w⁻⁸ + …), whose next term is below 2⁻⁵⁸
-/// from z = 32 on; smaller arguments are raised by z / (z + 1/2) = the quotient of the ratios at z and z + 1.
+/// With w = z − 1/4 the ratio is √w (1 + 1/64 w⁻² − 19/8192 w⁻⁴ + 631/2¹⁹ w⁻⁶ − 174317/2²⁷ w⁻⁸ + …). The next term is below 2⁻⁵⁸ for z ≥ 32. For
+/// smaller z, the ratio at z is z / (z + 1/2) times the ratio at z + 1.
 pub(super) fn gamma_ratio(z: f64) -> f64 {
     const COEFFICIENTS: [f64; 5] = [
         1.0,
@@ -142,7 +142,7 @@ pub(super) fn gamma_ratio(z: f64) -> f64 {
     raised * w.sqrt() * polynomial
 }
 
-/// base^exponent for a base in 0..=1 and an exponent from 0 on: squares for the whole bits of the exponent, square roots for the other bits.
+/// base^exponent for a base in 0..=1 and an exponent of at least 0, from repeated squares and square roots of the base.
 pub(super) fn power(base: f64, exponent: f64) -> f64 {
     let mut whole = exponent.floor();
     let mut rest = exponent - whole;
@@ -172,7 +172,7 @@ pub(super) fn power(base: f64, exponent: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// P(|T| ≥ |t|).
+    /// P(|T| ≥ |t|) of Student's T.
     fn two_sided(t: f64, freedom: f64) -> f64 {
         Split::at(t.abs(), freedom).beyond
     }

@@ -2,7 +2,7 @@
 
 use super::repeats::Repeats;
 
-/// Standard error of a score from the random numbers of its training, estimated from several trainings on the same samples.
+/// Standard error of a score that is caused by the random numbers of a training. Several trainings on the same samples give the estimate.
 ///
 /// ```
 /// use taceva_metrics::TrainingSpread;
@@ -39,7 +39,7 @@ impl TrainingSpread {
         })
     }
 
-    /// Standard error of the mean of all trainings; `None` under the conditions of [`of_one`](TrainingSpread::of_one).
+    /// Standard error of the mean score of all trainings; `None` if [`of_one`](TrainingSpread::of_one) returns `None`.
     ///
     /// ```
     /// let spread = taceva_metrics::TrainingSpread::of_mean(&[0.0, 2.0]).ok_or("two")?;

@@ -1,6 +1,7 @@
 //! Distribution of the ratio of two variances.
 
-/// Distance of a ratio of two variances from 1, as a standard normal number.
+/// Standard normal score of a ratio of two variances, by Paulson's approximation of the F distribution. `above` and `below` are the degrees of
+/// freedom of numerator and denominator.
 pub(super) fn paulson(ratio: f64, above: f64, below: f64) -> f64 {
     let root = cube_root(ratio);
     let (a, b) = (2.0 / (9.0 * above), 2.0 / (9.0 * below));

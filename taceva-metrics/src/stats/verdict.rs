@@ -1,4 +1,4 @@
-//! Answers of comparisons.
+//! Answers to comparisons of two scores.
 
 mod words;
 
@@ -21,14 +21,14 @@ use crate::score::direction::Better;
 pub struct Question {
     /// The unit of the scores.
     pub unit: Unit,
-    /// Direction of good scores.
+    /// Direction in which a score is better.
     pub better: Better,
-    /// Greatest difference of equivalent scores, in `unit`; `None` without a test of equivalence.
+    /// Margin of equivalence, in `unit`: equivalent scores differ by less. `None` without a test of equivalence.
     pub margin: Option<f64>,
 }
 
 impl Question {
-    /// Question which of two scores in `unit` is better, without a test of equivalence.
+    /// Asks which of two scores in `unit` is better, without a test of equivalence.
     pub const fn new(unit: Unit, better: Better) -> Question {
         Question {
             unit,
@@ -47,7 +47,7 @@ impl Question {
     }
 }
 
-/// Answer of a comparison at a level of 5 %, after [`decide`](crate::decide) has decided the difference within its family.
+/// Answer to a comparison at the level of 5 %. For several comparisons in one family, call [`decide`](crate::decide) on the differences first.
 ///
 /// ```
 /// use taceva_metrics::{Better, Estimate, Question, Side, Sides, Unit, Verdict, by_intervals};
@@ -66,11 +66,11 @@ impl Question {
 pub enum Verdict {
     /// The scores differ.
     Differs {
-        /// Size of the difference.
+        /// Difference of the scores.
         difference: Difference,
         /// The unit of the scores.
         unit: Unit,
-        /// Better side. `None` if no direction is good, or if values near zero are good and the scores are on both sides of zero.
+        /// Better side. `None` if the metric has no better direction. Also `None` if values near zero are better, and the scores have opposite signs.
         better: Option<Side>,
     },
     /// No difference is shown: the true difference may be any value in the interval.
@@ -80,13 +80,13 @@ pub enum Verdict {
         /// The unit of the scores.
         unit: Unit,
     },
-    /// The scores differ by less than the margin, even if a difference is shown.
+    /// The scores are shown to differ by less than the margin, even if the difference is also shown to be nonzero.
     Equivalent {
         /// Observed difference.
         difference: Difference,
         /// The unit of the scores.
         unit: Unit,
-        /// Greatest difference of equivalent scores. The interval is within this margin.
+        /// Margin of equivalence, which is greater than both ends of the interval in magnitude.
         margin: f64,
     },
     /// No answer, with the reason.
@@ -94,7 +94,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// Answer of `difference` to `question`.
+    /// Answer to `question` from a tested difference.
     pub fn of(difference: Result<Difference, ComparisonError>, question: Question) -> Verdict {
         match difference {
             Ok(difference) => {

@@ -3,10 +3,10 @@
 use crate::count::as_f64;
 use crate::score::Interval;
 
-/// Normal quantile: ±z contains 95 % of the normal distribution.
+/// Standard normal quantile z: ±z contains 95 % of the normal distribution.
 const Z: f64 = 1.959_963_984_540_054;
 
-/// Interval about `hits` of `trials`, for at least one trial, all independent.
+/// Wilson's interval of the share `hits` / `trials`, for at least one trial. All trials are independent.
 ///
 /// # Reference
 /// Wilson, Probable inference, the law of succession, and statistical inference, JASA 22 (1927).
@@ -17,7 +17,7 @@ pub(crate) fn interval(hits: u64, trials: u64) -> Interval {
 }
 
 impl Interval {
-    /// Interval of the share `hits` / `trials` by Wilson, as if all trials were independent.
+    /// Wilson's interval of the share `hits` / `trials`, which assumes independent trials.
     ///
     /// ```
     /// use taceva_metrics::Interval;
@@ -38,7 +38,7 @@ impl Interval {
     }
 }
 
-/// Shares within `z` standard errors of `share` for `n` trials; `n` may be fractional.
+/// Ends of Wilson's interval: the true shares from which `share` is `z` standard errors away. The number `n` of trials may be fractional.
 pub(super) fn ends(share: f64, n: f64, z: f64) -> [f64; 2] {
     let scale = 1.0 + z * z / n;
     let centre = (share + z * z / (2.0 * n)) / scale;

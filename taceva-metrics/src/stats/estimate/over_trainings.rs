@@ -7,9 +7,10 @@ use crate::stats::trainings::TrainingSpread;
 impl Estimate {
     /// The same score, with the variance between trainings added to the variance between clusters.
     ///
-    /// On the scale g of the interval, the trainings have the standard error s |g′(value)| to first order, with s the standard error of
-    /// `spread`. Both standard errors add as squares, with degrees of freedom by Welch and Satterthwaite. A share of n effective samples then has
-    /// n′ effective samples, 1/n′ = 1/n + s² / (p (1 − p)), with p the mean of all trainings. Equal trainings change no bit.
+    /// Let s be the standard error of `spread`, and g′ the derivative of the interval's scale at the value. On this scale, the trainings have the
+    /// standard error s |g′| to first order. Both standard errors add as squares, with degrees of freedom by Welch and Satterthwaite. A share of n
+    /// effective samples then has n′ effective samples: 1/n′ = 1/n + s² / (p (1 − p)), with p the mean of all trainings. Equal trainings leave the
+    /// estimate unchanged.
     ///
     /// ```
     /// use taceva_metrics::{Estimate, Sides, TrainingSpread, by_intervals};

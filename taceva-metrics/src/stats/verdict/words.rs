@@ -69,13 +69,13 @@ impl Verdict {
 }
 
 impl fmt::Display for Verdict {
-    /// `A better by 0.012 N (95 % 0.004…0.020, p = 0.003)`
+    /// Answer in words, with the names A and B: `A better by 0.012 N (95 % 0.004…0.020, p = 0.003)`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.words(Sides { a: "A", b: "B" }))
     }
 }
 
-/// Confidence such as `95 %` or `99.72 %`, with enough digits to show the complement to one part in twenty.
+/// Confidence as text, such as `95 %` or `99.72 %`. The digits suffice for a relative error of at most 5 % in 100 % − confidence.
 fn percent(share: f64) -> String {
     let rest = 100.0 * (1.0 - share);
     let mut places = 1.0;
@@ -89,7 +89,7 @@ fn percent(share: f64) -> String {
     format!("{:.6} %", 100.0 * share)
 }
 
-/// ` N`, or empty for a ratio.
+/// Unit after a number, such as ` N`; empty for a ratio.
 fn suffix(unit: Unit) -> String {
     match unit {
         Unit::One => String::new(),
@@ -97,9 +97,9 @@ fn suffix(unit: Unit) -> String {
     }
 }
 
-/// Fewest decimals, up to 12, whose last place is at most a tenth of an interval's width. For an asymmetric interval the width is twice the nearer
-/// distance, for an infinite interval the magnitude of the value. Up to three more decimals if an end that is not 0 would print as 0, which would
-/// contradict the verdict.
+/// Fewest decimals, up to 12, whose last place is at most a tenth of an interval's width. An asymmetric interval has twice the distance from the
+/// value to its nearer end as width, an infinite interval the magnitude of the value. If a nonzero end would print as 0 and contradict the verdict,
+/// up to three decimals are added.
 fn decimals(ends: &[f64; 2], value: f64) -> usize {
     let fewest = decimals_of_width(ends, value);
     let hides_an_end = |decimals: usize| {
