@@ -12,7 +12,7 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ArgValue {
-    /// A text, a path or a choice.
+    /// A text, a path, or one word of a list.
     Text(String),
     /// A whole number.
     Whole(i64),

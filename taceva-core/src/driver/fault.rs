@@ -33,7 +33,7 @@ impl Fault {
         Fault::Servo,
     ];
 
-    /// Words for the fault in messages.
+    /// Name of the fault in messages, such as `emergency stop`.
     pub const fn name(self) -> &'static str {
         match self {
             Fault::EmergencyStop => "emergency stop",
