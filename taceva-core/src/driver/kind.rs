@@ -18,7 +18,7 @@ pub enum DriverKind {
     Sensor,
     /// Moves the indenter.
     Robot,
-    /// Measures the force on the gel.
+    /// Measures the force of the indenter on the gel.
     Force,
     /// Sets the light around the sensor.
     Lighting,
@@ -50,7 +50,7 @@ impl DriverKind {
 
 display!(DriverKind, name);
 
-/// A device trait as a type, such as `dyn Sensor`. Registries and factories are generic over this type.
+/// Trait of the types `dyn Sensor`, `dyn Robot` and so on, one per kind of device. Registries and factories are generic over these types.
 ///
 /// ```
 /// use taceva_core::{Device, DriverKind, Robot};
