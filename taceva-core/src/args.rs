@@ -139,7 +139,7 @@ impl Args {
 }
 
 impl ArgSpec {
-    /// True if `args` give this argument a value other than its default.
+    /// True if this argument has a value in `args` that is not its default.
     pub fn is_set_by(&self, args: &Args) -> bool {
         match &self.presence {
             Presence::Default(value) => args.get(&self.key) != Some(value),

@@ -261,7 +261,7 @@ impl Batch {
         &self.prediction[position]
     }
 
-    /// The contact point of each sample; `None` if any sample has no point.
+    /// The contact point of each sample; `None` if at least one sample has no point.
     pub fn points(&self) -> Option<&Labels> {
         self.points.as_ref()
     }

@@ -29,17 +29,17 @@ pub struct Channel {
 }
 
 impl Channel {
-    /// Contact position along x.
+    /// Contact position along x of the sensor, mm.
     pub const PX: Channel = Channel::fixed("Px", Unit::Millimetre);
-    /// Contact position along y.
+    /// Contact position along y of the sensor, mm.
     pub const PY: Channel = Channel::fixed("Py", Unit::Millimetre);
-    /// Indentation depth, positive into the gel.
+    /// Indentation depth, positive into the gel, mm.
     pub const PZ: Channel = Channel::fixed("Pz", Unit::Millimetre);
-    /// Shear force along x.
+    /// Shear force along x of the sensor, N.
     pub const FX: Channel = Channel::fixed("Fx", Unit::Newton);
-    /// Shear force along y.
+    /// Shear force along y of the sensor, N.
     pub const FY: Channel = Channel::fixed("Fy", Unit::Newton);
-    /// Normal force, positive in compression.
+    /// Normal force, positive in compression, N.
     pub const FZ: Channel = Channel::fixed("Fz", Unit::Newton);
     /// Position and force of a contact, in canonical order: `Px Py Pz Fx Fy Fz`.
     pub const SIX: [Channel; 6] = [
@@ -215,12 +215,12 @@ impl Channels {
         self.list.iter().find(|channel| channel.name() == name)
     }
 
-    /// The channels in order.
+    /// The channels in canonical order.
     pub fn as_slice(&self) -> &[Channel] {
         &self.list
     }
 
-    /// The channels in order.
+    /// The channels in canonical order.
     pub fn iter(&self) -> std::slice::Iter<'_, Channel> {
         self.list.iter()
     }

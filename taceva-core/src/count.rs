@@ -25,7 +25,7 @@ where
     }
 }
 
-/// Selects a word by count: `one` for 1, else `many`.
+/// Returns `one` if `count` is 1, otherwise `many`.
 ///
 /// ```
 /// use taceva_core::{by_count, counted};

@@ -45,7 +45,7 @@ pub enum ErrorKind {
 }
 
 impl ErrorKind {
-    /// Every kind, in numerical order.
+    /// Every kind of failure, in the order of the numbers.
     pub const ALL: [ErrorKind; 15] = [
         ErrorKind::NotFound,
         ErrorKind::PermissionDenied,

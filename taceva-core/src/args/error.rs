@@ -24,7 +24,7 @@ pub enum ArgError {
     Unknown {
         /// Undeclared key.
         key: String,
-        /// Most similar declared key, if any.
+        /// Most similar declared key; `None` if no key is similar.
         nearest: Option<String>,
         /// Every declared key.
         known: Vec<String>,

@@ -18,7 +18,7 @@ pub enum ArgValue {
     Whole(i64),
     /// A finite number, in the declared unit.
     Number(f64),
-    /// On or off.
+    /// `true` or `false`.
     Flag(bool),
 }
 

@@ -1,4 +1,4 @@
-//! Column of numbers, one per row.
+//! Column with a number or a missing value in each row.
 
 use std::ops::Range;
 

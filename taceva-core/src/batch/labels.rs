@@ -1,4 +1,4 @@
-//! Column of names, one per row.
+//! Column with a name or no name in each row.
 
 use std::collections::HashMap;
 use std::sync::Arc;

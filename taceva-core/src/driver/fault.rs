@@ -4,7 +4,7 @@ use crate::display::display;
 
 /// Fault for which a device stopped by itself, as reported by the device.
 ///
-/// After a fault, a run leaves the tip in place and does not clear the fault. A person acknowledges the fault at the device.
+/// After a fault, a run does not move the robot and does not clear the fault. A person acknowledges the fault at the device.
 ///
 /// ```
 /// use taceva_core::Fault;

@@ -179,7 +179,7 @@ pub enum Axis {
     Fx,
     /// Force along y.
     Fy,
-    /// Normal force.
+    /// Normal force, along z.
     Fz,
     /// Torque about x.
     Tx,

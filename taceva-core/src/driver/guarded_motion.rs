@@ -55,7 +55,7 @@ pub trait GuardedMotion {
     ) -> Result<GuardedStop, DriverError>;
 }
 
-/// Condition that ends a guarded motion.
+/// Force limit that ends a guarded motion.
 ///
 /// ```
 /// use taceva_core::{Guard, Newton};
@@ -87,14 +87,14 @@ impl Guard {
 pub enum GuardedStop {
     /// The robot rests at the target; the force did not reach the limit.
     Arrived {
-        /// Time at which the tip came to rest.
+        /// Time at which the robot came to rest.
         stamp: Stamp,
     },
     /// The force reached the limit, and the robot stopped.
     Guarded {
         /// Pose of the tip at rest, after the braking distance.
         pose: Pose,
-        /// Time at which the tip came to rest.
+        /// Time at which the robot came to rest.
         stamp: Stamp,
     },
 }

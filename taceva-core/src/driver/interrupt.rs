@@ -1,4 +1,4 @@
-//! Interrupting a call from another thread.
+//! Handle to interrupt a call from another thread.
 
 /// Handle that interrupts the pending call of a device, from any thread.
 ///
@@ -24,6 +24,6 @@
 /// assert!(receiver.recv().is_ok());
 /// ```
 pub trait Interrupt: Send + Sync {
-    /// Interrupts the pending call, without waiting for the call to return.
+    /// Interrupts the pending call. Returns at once, even if that call has not returned.
     fn interrupt(&self);
 }

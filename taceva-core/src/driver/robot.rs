@@ -74,7 +74,7 @@ use crate::stamp::Stamp;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Robot: Send {
-    /// Pose of the tip, and the time of the pose.
+    /// Pose of the tip of the indenter, and the time of the pose.
     ///
     /// # Errors
     /// [`DriverError`] of kind `Timeout`, `Disconnected`, or `DeviceFault` for a coordinate that is not finite.

@@ -35,7 +35,7 @@ const JUMP_S: f64 = 60.0;
 /// ```
 #[derive(Clone, Debug)]
 pub struct SampleTiming {
-    /// False for a device whose clock is not the clock of its host.
+    /// False for a simulated device or a recording, whose samples are not checked.
     is_checked: bool,
     rate: Option<Hertz>,
     /// Duration of the calls since the last sample.
@@ -223,7 +223,7 @@ mod tests {
         SampleTiming::of(Some(Hertz(100.0)))
     }
 
-    /// Adds `count` samples that each take `took`, with stamps `took` apart.
+    /// Adds to `timing` `count` samples that each take `took`, with stamps `took` apart.
     fn taken(timing: &mut SampleTiming, count: u32, took: Duration) -> Result<(), TimingError> {
         let begun = Instant::now();
         (1..=count).try_for_each(|number| {

@@ -124,7 +124,7 @@ impl StampWindows {
 mod tests {
     use super::*;
 
-    /// Samples of one device.
+    /// Windows of one device, with the stamp of its last sample.
     #[derive(Default)]
     struct Samples {
         windows: StampWindows,
