@@ -15,7 +15,7 @@ pub use value::ArgValue;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// Arguments of one driver, checked against its declarations. Omitted arguments have their defaults.
+/// Arguments of one driver, checked against the driver's declarations. An omitted argument has its default, if it declares one.
 ///
 /// ```
 /// use taceva_core::{ArgSpec, ArgValue, Args};
@@ -36,7 +36,7 @@ pub struct Args {
 }
 
 impl Args {
-    /// Parses the arguments after the colon of a selector: `key=value;key=value`. `;;` is a semicolon within a value.
+    /// Parses arguments of the form `key=value;key=value` and checks them against `specs`. `;;` stands for a semicolon within a value.
     ///
     /// # Errors
     /// [`ArgError`] for the first invalid argument.
@@ -51,7 +51,7 @@ impl Args {
         Args::from_pairs(specs, pairs)
     }
 
-    /// Checks arguments given as pairs of key and text, for example from a table in a scene.
+    /// Parses and checks arguments given as pairs of key and text, for example the entries of a TOML table.
     ///
     /// # Errors
     /// [`ArgError`] for the first invalid argument.
@@ -88,15 +88,15 @@ impl Args {
         Ok(Args { values })
     }
 
-    /// Value of `key`; `None` for an omitted argument without a default.
+    /// Value of the argument `key`; `None` if it is undeclared, or omitted without a default.
     pub fn get(&self, key: &str) -> Option<&ArgValue> {
         self.values.get(key)
     }
 
-    /// Value of `key`, a whole number.
+    /// Value of the argument `key`, a whole number.
     ///
     /// # Panics
-    /// If the driver does not declare `key` as a whole number, required or with a default. This is a bug in the driver.
+    /// If the argument has no value, or a value of another type. The driver must declare it as required or with a default.
     pub fn whole(&self, key: &str) -> i64 {
         match self.get(key) {
             Some(&ArgValue::Whole(value)) => value,
@@ -104,10 +104,10 @@ impl Args {
         }
     }
 
-    /// Value of `key`, a number in the declared unit.
+    /// Value of the argument `key`, a number in its declared unit.
     ///
     /// # Panics
-    /// If the driver does not declare `key` as a number, required or with a default. This is a bug in the driver.
+    /// If the argument has no value, or a value of another type. The driver must declare it as required or with a default.
     pub fn number(&self, key: &str) -> f64 {
         match self.get(key) {
             Some(&ArgValue::Number(value)) => value,
@@ -115,10 +115,10 @@ impl Args {
         }
     }
 
-    /// Value of `key`: a text, a path or a choice.
+    /// Value of the argument `key`: a text, a path, or one word of a list.
     ///
     /// # Panics
-    /// If the driver does not declare `key` as one of these types, required or with a default. This is a bug in the driver.
+    /// If the argument has no value, or a value of another type. The driver must declare it as required or with a default.
     pub fn text(&self, key: &str) -> &str {
         match self.get(key) {
             Some(ArgValue::Text(value)) => value,
@@ -126,10 +126,10 @@ impl Args {
         }
     }
 
-    /// Value of the switch `key`.
+    /// Value of the argument `key`: `true` or `false`.
     ///
     /// # Panics
-    /// If the driver does not declare `key` as a flag, required or with a default. This is a bug in the driver.
+    /// If the argument has no value, or a value of another type. The driver must declare it as required or with a default.
     pub fn flag(&self, key: &str) -> bool {
         match self.get(key) {
             Some(&ArgValue::Flag(value)) => value,
@@ -139,7 +139,7 @@ impl Args {
 }
 
 impl ArgSpec {
-    /// True if `args` give this argument a value other than its default.
+    /// True if this argument has a value in `args` that is not its default.
     pub fn is_set_by(&self, args: &Args) -> bool {
         match &self.presence {
             Presence::Default(value) => args.get(&self.key) != Some(value),

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use crate::channel::Channels;
 use crate::field::Field;
 
-/// Samples as columns of equal length; fields that no metric needs are empty.
+/// Samples as columns of equal length, one row per sample. A field that no requested metric needs may have no values.
 ///
 /// ```
 /// use taceva_core::{Batch, Channel, Channels, Column};
@@ -36,7 +36,7 @@ pub struct Batch {
 }
 
 impl Batch {
-    /// A batch of complete columns.
+    /// A batch from columns of true and predicted values, and the contact point of each row.
     ///
     /// # Shapes
     /// `truth`, `prediction`: one column per channel, all of one length; `points`: of that length.
@@ -86,10 +86,10 @@ impl Batch {
         }
     }
 
-    /// The same batch with the texts of `field`: scene, unit, phase, kind of grating or digest of the frame.
+    /// The same batch with texts for `field`: lighting scene, sensor unit, phase, kind of grating or digest of the frame.
     ///
     /// # Panics
-    /// If the length differs from the number of rows, or the values of the field are not text.
+    /// If the length of `labels` differs from the number of rows, or the values of the field are not text.
     #[must_use]
     pub fn with_labels(mut self, field: Field, labels: Labels) -> Batch {
         assert_eq!(labels.index().len(), self.rows, "a label for each row");
@@ -101,7 +101,7 @@ impl Batch {
     /// The same batch with the recording of each sample, for samples of several recordings.
     ///
     /// # Panics
-    /// If the length differs from the number of rows, or a row has no name.
+    /// If the length of `recordings` differs from the number of rows, or a row has no name.
     ///
     /// ```
     /// use taceva_core::{Batch, Channel, Channels, Column, Labels};
@@ -124,10 +124,10 @@ impl Batch {
         }
     }
 
-    /// The same batch with the name of each sample, for intervals over single samples.
+    /// The same batch with the name of each sample, for confidence intervals that treat every sample as independent.
     ///
     /// # Panics
-    /// If the length differs from the number of rows, or a row has no name.
+    /// If the length of `samples` differs from the number of rows, or a row has no name.
     ///
     /// ```
     /// use taceva_core::{Batch, Channel, Channels, Column, Labels};
@@ -150,10 +150,10 @@ impl Batch {
         }
     }
 
-    /// The same batch with the numbers of `field`: depth step, repeat, time in s, spacings in whole nm, intensity.
+    /// The same batch with numbers for `field`: depth level, number of the repeat, time in s, grating spacing in whole nm, or mean brightness.
     ///
     /// # Panics
-    /// If the length differs from the number of rows, or the values of the field are not numbers.
+    /// If the length of `numbers` differs from the number of rows, or the values of the field are not numbers.
     #[must_use]
     pub fn with_numbers(mut self, field: Field, numbers: Column) -> Batch {
         assert_eq!(numbers.len(), self.rows, "a number for each row");
@@ -197,8 +197,8 @@ impl Batch {
         }
     }
 
-    /// The batch with periodic angles shifted by whole periods. Each prediction is then nearest to its truth, and each truth nearest to the
-    /// centre of its channel in `centres`. A channel without a centre keeps its truths.
+    /// The batch with periodic angles shifted by whole periods. `centres` has one value per channel name. Each true value moves as
+    /// near as possible to the centre of its channel, or stays without one. Each prediction moves as near as possible to its true value.
     ///
     /// `None` if no channel has a period, so that the batch needs no change.
     ///
@@ -251,17 +251,17 @@ impl Batch {
         &self.channels
     }
 
-    /// True values of the channel at `position`, from the reference instruments.
+    /// True values of the channel at index `position` of [`channels`](Batch::channels).
     pub fn truth(&self, position: usize) -> &Column {
         &self.truth[position]
     }
 
-    /// The predictions of the channel at `position`.
+    /// The predictions of the channel at index `position` of [`channels`](Batch::channels).
     pub fn prediction(&self, position: usize) -> &Column {
         &self.prediction[position]
     }
 
-    /// The contact point of each sample; `None` if any sample has no point.
+    /// The contact point of each sample; `None` if at least one sample has no point.
     pub fn points(&self) -> Option<&Labels> {
         self.points.as_ref()
     }
@@ -276,13 +276,13 @@ impl Batch {
         self.samples.as_ref()
     }
 
-    /// The texts of `field`: scene, unit, phase, kind of grating or digest of the frame. `None` if the batch has none.
+    /// The texts of `field`: lighting scene, sensor unit, phase, kind of grating or digest of the frame. `None` if the batch lacks this field.
     pub fn labels(&self, field: Field) -> Option<&Labels> {
         self.labels.get(&field)
     }
 
-    /// The numbers of `field`: depth step, repeat, time in s, spacings in whole nm (exact in binary64), intensity. `None` if the batch has
-    /// none.
+    /// The numbers of `field`: depth level, number of the repeat, time in s, grating spacing in whole nm, or mean brightness from 0 to 255.
+    /// `None` if the batch lacks this field.
     pub fn numbers(&self, field: Field) -> Option<&Column> {
         self.numbers.get(&field)
     }

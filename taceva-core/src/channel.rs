@@ -1,4 +1,4 @@
-//! Measured quantities: the six channels of a contact, and named extra channels.
+//! Channels, which are measured quantities: position and force of a contact, and extra quantities such as angles.
 
 mod name;
 
@@ -9,11 +9,11 @@ use self::name::{ChannelName, NAME_MAX};
 use crate::display::display;
 use crate::unit::Unit;
 
-/// One measured quantity: a name and a unit. A plain value, copied like a number.
+/// One measured quantity: its name, its unit and, for an angle, its period.
 ///
 /// # Units
-/// `Px Py Pz` in mm and `Fx Fy Fz` in N. `Pz` is the indentation, positive into the gel; `Fz` is positive in compression;
-/// `Fx`, `Fy` follow the tangential displacement of the indenter relative to the gel.
+/// `Px`, `Py` and `Pz` are in mm, `Fx`, `Fy` and `Fz` in N. `Pz` is the indentation, positive into the gel. `Fz` is positive in
+/// compression. `Fx` and `Fy` have the sign of the tangential displacement of the indenter relative to the gel.
 ///
 /// ```
 /// use taceva_core::{Channel, Unit};
@@ -29,19 +29,19 @@ pub struct Channel {
 }
 
 impl Channel {
-    /// Contact position along x.
+    /// Contact position along x of the sensor, mm.
     pub const PX: Channel = Channel::fixed("Px", Unit::Millimetre);
-    /// Contact position along y.
+    /// Contact position along y of the sensor, mm.
     pub const PY: Channel = Channel::fixed("Py", Unit::Millimetre);
-    /// Indentation depth, positive into the gel.
+    /// Indentation depth, positive into the gel, mm.
     pub const PZ: Channel = Channel::fixed("Pz", Unit::Millimetre);
-    /// Shear force along x.
+    /// Shear force along x of the sensor, N.
     pub const FX: Channel = Channel::fixed("Fx", Unit::Newton);
-    /// Shear force along y.
+    /// Shear force along y of the sensor, N.
     pub const FY: Channel = Channel::fixed("Fy", Unit::Newton);
-    /// Normal force, positive in compression.
+    /// Normal force, positive in compression, N.
     pub const FZ: Channel = Channel::fixed("Fz", Unit::Newton);
-    /// The six channels of a contact, in canonical order.
+    /// Position and force of a contact, in canonical order: `Px Py Pz Fx Fy Fz`.
     pub const SIX: [Channel; 6] = [
         Channel::PX,
         Channel::PY,
@@ -51,7 +51,7 @@ impl Channel {
         Channel::FZ,
     ];
 
-    /// Longest name of an extra channel, in bytes.
+    /// Maximum length of the name of a channel, in bytes.
     pub const NAME_MAX: usize = NAME_MAX;
 
     const fn fixed(name: &str, unit: Unit) -> Channel {
@@ -62,11 +62,11 @@ impl Channel {
         }
     }
 
-    /// Channel called `name`: one of the six, or an extra channel such as `Rx` in degrees or `shear_x` in mm.
+    /// Channel called `name`: one of [`SIX`](Channel::SIX), or an extra channel such as `Rx` in degrees or `shear_x` in mm.
     ///
     /// # Errors
     /// [`ChannelError`] if the name is not an ASCII letter followed by letters, digits or `_`, or is longer than
-    /// [`NAME_MAX`](Channel::NAME_MAX) bytes. Also if one of the six channels has a different unit from its standard unit.
+    /// [`NAME_MAX`](Channel::NAME_MAX) bytes. Also if `name` is in [`SIX`](Channel::SIX) and `unit` is not its unit.
     pub fn named(name: &str, unit: Unit) -> Result<Channel, ChannelError> {
         if let Some(known) = Channel::SIX
             .into_iter()
@@ -94,7 +94,7 @@ impl Channel {
         Ok(Channel::fixed(name, unit))
     }
 
-    /// The channel as an angle whose values repeat after `degrees`, from 1 to 360. Values in radians repeat after the same angle.
+    /// The channel as an angle with a period of `degrees`, from 1 to 360. The period is in degrees even if the values are in radians.
     ///
     /// # Errors
     /// [`ChannelError::Period`] if the channel is neither in degrees nor in radians, or `degrees` is 0 or above 360.
@@ -135,7 +135,7 @@ impl Channel {
         self.period.map(NonZeroU16::get)
     }
 
-    /// Period of the values in their own unit, degrees or radians; `None` like [`period`](Channel::period).
+    /// Period of the values in their own unit, degrees or radians; `None` for a channel without a period.
     ///
     /// ```
     /// use taceva_core::{Channel, Unit};
@@ -151,9 +151,9 @@ impl Channel {
         })
     }
 
-    /// Number nearest to `reference` among `value` and, for a channel with a period, `value` plus whole periods.
+    /// Shifts `value` by whole periods of the channel until it is nearest to `reference`. Without a period, returns `value`.
     ///
-    /// Returns `value` unchanged, to the bit, if it differs from `reference` by at most half a period.
+    /// Also returns `value` unchanged, to the bit, if it differs from `reference` by at most half a period.
     pub fn nearest(&self, value: f64, reference: f64) -> f64 {
         let Some(period) = self.period_in_unit() else {
             return value;
@@ -168,7 +168,7 @@ impl Channel {
 
 display!(Channel, name);
 
-/// Channels of a stream, each once, in canonical order: `Px Py Pz Fx Fy Fz`, then extra channels by name.
+/// Channels without repetition, in canonical order: `Px Py Pz Fx Fy Fz`, then extra channels sorted by name.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels};
@@ -215,12 +215,12 @@ impl Channels {
         self.list.iter().find(|channel| channel.name() == name)
     }
 
-    /// The channels in order.
+    /// The channels in canonical order.
     pub fn as_slice(&self) -> &[Channel] {
         &self.list
     }
 
-    /// The channels in order.
+    /// The channels in canonical order.
     pub fn iter(&self) -> std::slice::Iter<'_, Channel> {
         self.list.iter()
     }
@@ -244,7 +244,7 @@ impl<'a> IntoIterator for &'a Channels {
     }
 }
 
-/// Rejection of a channel or of a list of channels.
+/// Error for an invalid channel or list of channels.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels};
@@ -258,25 +258,25 @@ pub enum ChannelError {
         /// The name as given.
         name: String,
     },
-    /// One of the six channels has a unit other than its standard unit.
+    /// A channel of [`Channel::SIX`] has a unit other than its own.
     Unit {
-        /// The channel.
+        /// Name of the channel.
         name: String,
-        /// Unit of the channel.
+        /// Unit that the channel must have.
         expected: Unit,
-        /// Unit found.
+        /// Unit that was given.
         found: Unit,
     },
     /// The channel is not an angle, or the period is outside 1 to 360 degrees.
     Period {
-        /// The channel.
+        /// Name of the channel.
         name: String,
         /// The period as given, degrees.
         degrees: u16,
     },
     /// The same channel occurs twice.
     Twice {
-        /// The channel.
+        /// Name of the channel.
         name: String,
     },
 }

@@ -1,8 +1,8 @@
-//! Counts in words.
+//! Counts with their nouns, in the singular or plural.
 
 use std::fmt;
 
-/// Count and noun. The noun ends in `s`, `es` or `ies` unless the count is 1.
+/// Text of `count` and `noun`, such as `3 entries`. The noun is in the plural unless the count is 1.
 ///
 /// ```
 /// use taceva_core::counted;
@@ -25,7 +25,7 @@ where
     }
 }
 
-/// Selects a word by count: `one` for 1, else `many`.
+/// Returns `one` if `count` is 1, otherwise `many`.
 ///
 /// ```
 /// use taceva_core::{by_count, counted};

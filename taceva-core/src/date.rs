@@ -3,9 +3,9 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// A day of the Gregorian calendar, written `2026-05-12`. Earlier days compare as less.
+/// A day of the Gregorian calendar, written `2026-05-12`. Dates are ordered by time.
 ///
-/// The crate has no required dependency, so it computes the calendar itself.
+/// This crate computes the calendar itself, because it has no required dependency.
 ///
 /// ```
 /// use taceva_core::Date;
@@ -24,7 +24,7 @@ pub struct Date {
 }
 
 impl Date {
-    /// The UTC day of a Unix time, s.
+    /// Day in UTC of a Unix time in seconds.
     pub fn of_unix_s(seconds: u64) -> Date {
         // In the calendar that repeats every 400 years, with years that begin in March.
         let days = seconds / 86_400 + 719_468;
@@ -45,7 +45,7 @@ impl Date {
         }
     }
 
-    /// The date of these numbers; `None` if the calendar has no such day. Months and days count from 1.
+    /// Date of `year`, `month` from 1 to 12, and `day` from 1; `None` if the day does not exist or the year is above 9999.
     ///
     /// ```
     /// use taceva_core::Date;
@@ -64,7 +64,7 @@ impl Date {
         is_there.then_some(Date { year, month, day })
     }
 
-    /// Days from 1 January 1970, negative before.
+    /// Number of days since 1 January 1970, negative for an earlier date.
     pub fn days_since_1970(self) -> i64 {
         // Years that begin in March have the leap day at their end. 400 years more keep the numbers positive.
         let year = self.year + 400 - u64::from(self.month <= 2);

@@ -1,4 +1,4 @@
-//! `Display` of types that have a name.
+//! Macro that implements `Display` by a method such as `name`.
 
 /// Implements `Display` with the text of a method: `display!(Phase, name);`.
 macro_rules! display {

@@ -2,7 +2,8 @@
 //!
 //! # The order of calls
 //! 1. A [`Factory`](crate::Factory) opens a device from checked [`Args`](crate::Args). Opening moves nothing and changes no light.
-//! 2. `start`, then any number of readings, then `stop`. Both may be called twice, and a stopped device can start again.
+//! 2. The caller calls `start`, then reads any number of times, then calls `stop`. Calling `start` or `stop` twice is allowed, and a stopped
+//!    device can start again.
 //! 3. Dropping a device stops it and releases its resources, in every state.
 //!
 //! # Time
@@ -15,8 +16,8 @@
 //! may call these during any other call.
 //!
 //! # Values
-//! Values are in mm, degrees, N and N·mm, in the sensor's frame, and must be finite. An infinite value or NaN is an error: from the caller
-//! [`InvalidArgument`](crate::ErrorKind::InvalidArgument), from the device [`DeviceFault`](crate::ErrorKind::DeviceFault).
+//! Values are in mm, degrees, N and N·mm, in the sensor's frame, and must be finite. NaN or infinity from the caller is the
+//! error [`InvalidArgument`](crate::ErrorKind::InvalidArgument). From the device, it is [`DeviceFault`](crate::ErrorKind::DeviceFault).
 //! [`check_pose`] and [`check_wrench`] check poses and wrenches.
 
 mod bench;

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-/// Kind of failure of a device, a plugin or a file. Its number is the negated status code of the plugin interface, whose next major
-/// version may add kinds. Before that version, this type gets no further variant.
+/// Kind of failure of a device, a plugin or a file. Its number is the negated status code of the plugin interface. This type
+/// gets no further variant before the next major version of that interface.
 ///
 /// ```
 /// use taceva_core::ErrorKind;
@@ -18,7 +18,7 @@ pub enum ErrorKind {
     PermissionDenied = 2,
     /// Another program or user has the object open.
     Busy = 3,
-    /// No answer within the deadline.
+    /// The call got no answer within its deadline.
     Timeout = 4,
     /// The connection is lost.
     Disconnected = 5,
@@ -26,11 +26,11 @@ pub enum ErrorKind {
     Unsupported = 6,
     /// An argument of the caller is invalid.
     InvalidArgument = 7,
-    /// Bytes that violate their format.
+    /// The received bytes violate their format.
     Protocol = 8,
-    /// A value outside the allowed range.
+    /// A value is outside the allowed range.
     OutOfRange = 9,
-    /// Stopped on request.
+    /// The call was stopped on request.
     Interrupted = 10,
     /// The device reports a fault.
     DeviceFault = 11,
@@ -45,7 +45,7 @@ pub enum ErrorKind {
 }
 
 impl ErrorKind {
-    /// Every kind, in numerical order.
+    /// Every kind of failure, in the order of the numbers.
     pub const ALL: [ErrorKind; 15] = [
         ErrorKind::NotFound,
         ErrorKind::PermissionDenied,

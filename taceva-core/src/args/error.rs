@@ -3,7 +3,7 @@
 use crate::printable::shown;
 use std::fmt;
 
-/// An argument that the driver rejects. Rejected keys, values and parts are unchanged texts of the user.
+/// Error for an argument that the driver rejects. Its fields contain the user's text unescaped.
 ///
 /// ```
 /// use taceva_core::{ArgError, ArgSpec, Args};
@@ -15,16 +15,16 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ArgError {
-    /// A part without `=`.
+    /// A part of the argument text, between two semicolons, has no `=`.
     Syntax {
-        /// Part without `=`.
+        /// Text between the semicolons.
         text: String,
     },
     /// A key that the driver does not declare.
     Unknown {
         /// Undeclared key.
         key: String,
-        /// Most similar declared key, if any.
+        /// Most similar declared key; `None` if no key is similar.
         nearest: Option<String>,
         /// Every declared key.
         known: Vec<String>,
@@ -43,7 +43,7 @@ pub enum ArgError {
         /// Help text of the argument.
         help: String,
     },
-    /// A value that the key does not accept.
+    /// A value of the wrong type or outside the accepted range.
     Value {
         /// Key of the argument.
         key: String,
@@ -51,7 +51,7 @@ pub enum ArgError {
         value: String,
         /// Accepted values, in words.
         expected: String,
-        /// Most similar choice, if any.
+        /// Most similar accepted word; `None` if no word is similar, or the argument has no list of words.
         nearest: Option<String>,
     },
 }

@@ -1,4 +1,4 @@
-//! Type of an argument's value, and presence of the argument.
+//! Type of an argument's value, and the rule for an omitted argument.
 
 use super::value::ArgValue;
 
@@ -14,7 +14,7 @@ use super::value::ArgValue;
 pub enum ArgKind {
     /// Any text that is not empty.
     Text,
-    /// A file or a folder.
+    /// A path of a file or a folder.
     Path,
     /// A whole number.
     Whole {
@@ -39,7 +39,7 @@ pub enum ArgKind {
     Flag,
 }
 
-/// Presence of an argument. This enum gets no further variant: an omitted argument has a default or no value.
+/// Rule for an omitted argument. This enum gets no further variant: an omitted argument is an error, has no value or has a default.
 ///
 /// ```
 /// use taceva_core::{ArgSpec, Args, Presence};

@@ -25,11 +25,11 @@ pub struct ArgSpec {
     pub kind: ArgKind,
     /// Unit of a number, such as `ms` or `mm/h`; `None` without a unit. Users may write the unit after the number.
     pub unit: Option<String>,
-    /// Presence: required, optional or with a default.
+    /// Required, optional, or with a default value.
     pub presence: Presence,
-    /// Help text, printed after a colon.
+    /// Help text in lists of arguments and in the message for a missing argument.
     pub help: String,
-    /// True if the argument can change a fact of the unopened device, such as the size of its frames.
+    /// True if the argument can change a property that is known before the device is opened, such as the size of its frames.
     pub changes_facts: bool,
 }
 
@@ -46,22 +46,22 @@ impl ArgSpec {
         }
     }
 
-    /// A required text.
+    /// A required argument `key` whose value is a text.
     pub fn text(key: &str) -> ArgSpec {
         ArgSpec::new(key, ArgKind::Text)
     }
 
-    /// A required path.
+    /// A required argument `key` whose value is a path.
     pub fn path(key: &str) -> ArgSpec {
         ArgSpec::new(key, ArgKind::Path)
     }
 
-    /// A required whole number from `least` to `most`.
+    /// A required argument `key` whose value is a whole number from `least` to `most`.
     pub fn whole(key: &str, least: i64, most: i64) -> ArgSpec {
         ArgSpec::new(key, ArgKind::Whole { least, most })
     }
 
-    /// A required number from `least` to `most`.
+    /// A required argument `key` whose value is a number from `least` to `most`.
     pub fn number(key: &str, least: f64, most: f64) -> ArgSpec {
         ArgSpec::new(key, ArgKind::Number { least, most })
     }
@@ -72,12 +72,12 @@ impl ArgSpec {
         ArgSpec::new(key, ArgKind::Choice { of })
     }
 
-    /// A required switch.
+    /// A required argument `key` whose value is `true` or `false`.
     pub fn flag(key: &str) -> ArgSpec {
         ArgSpec::new(key, ArgKind::Flag)
     }
 
-    /// The same argument with a unit. Values may then be written with or without this unit.
+    /// The same argument with the unit `symbol`, such as `ms`. Users may write a value with or without the unit.
     #[must_use]
     pub fn unit(mut self, symbol: &str) -> ArgSpec {
         self.unit = Some(symbol.to_owned());
@@ -105,7 +105,7 @@ impl ArgSpec {
         self
     }
 
-    /// The same argument, marked as an argument that can change the facts of the device.
+    /// The same argument, marked as able to change properties that are known before the device is opened, such as the size of its frames.
     #[must_use]
     pub fn changes_facts(mut self) -> ArgSpec {
         self.changes_facts = true;
@@ -140,7 +140,7 @@ impl ArgSpec {
             })
     }
 
-    /// Strips an optional unit after the number of `text`.
+    /// Removes the unit of the argument from the end of `text`, if it is there.
     fn bare<'a>(&self, text: &'a str) -> &'a str {
         self.unit
             .as_deref()
@@ -190,7 +190,7 @@ impl ArgSpec {
         words
     }
 
-    /// Contradiction in the declaration itself, or `None`.
+    /// Error in the declaration, such as a default outside the range; `None` if the declaration is valid.
     pub fn fault(&self) -> Option<String> {
         let key_is_plain = self
             .key

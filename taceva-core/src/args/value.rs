@@ -12,13 +12,13 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ArgValue {
-    /// A text, a path or a choice.
+    /// A text, a path, or one word of a list.
     Text(String),
     /// A whole number.
     Whole(i64),
     /// A finite number, in the declared unit.
     Number(f64),
-    /// On or off.
+    /// `true` or `false`.
     Flag(bool),
 }
 

@@ -8,7 +8,7 @@ use crate::nanometre::Nanometre;
 use crate::phase::Phase;
 use crate::sample::{Readings, Sample};
 
-/// Collects samples into batches, with only the needed fields.
+/// Collects samples into batches that contain only selected fields.
 ///
 /// ```
 /// use taceva_core::{BatchBuilder, Channel, Channels, FieldSet, Readings, Sample};
@@ -24,7 +24,7 @@ pub struct BatchBuilder {
 }
 
 impl BatchBuilder {
-    /// A builder for samples whose readings follow `channels`.
+    /// A builder for samples with one reading per channel, in the order of `channels`. The batch contains only `fields`.
     pub fn new(channels: Channels, fields: FieldSet) -> BatchBuilder {
         BatchBuilder {
             fields,
@@ -32,7 +32,7 @@ impl BatchBuilder {
         }
     }
 
-    /// Adds one sample. If any sample of a batch has no `point_id`, the whole batch has no clusters.
+    /// Adds one sample. If any sample of a batch has no `point_id`, [`Batch::points`] of that batch is `None`.
     pub fn push(&mut self, sample: &Sample) {
         let batch = &mut self.batch;
         let nothing = Readings::default();

@@ -1,8 +1,8 @@
-//! Column of numbers, one per row.
+//! Column with a number or a missing value in each row.
 
 use std::ops::Range;
 
-/// The values of one channel, with a mask that marks the samples with a value.
+/// Numbers of one channel or field, one row per sample. A row may lack a value.
 ///
 /// ```
 /// use taceva_core::Column;
@@ -55,12 +55,12 @@ impl Column {
         present.then(|| self.values[row])
     }
 
-    /// All values in one slice. A value is meaningless if its [`present`](Column::present) is `false`.
+    /// Values of all rows. The value of a row is meaningless if [`present`](Column::present) has `false` for the row.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// Mask of the rows with a value; `None` if all rows have a value.
+    /// One entry per row, `true` if the row has a value; `None` if all rows have a value.
     pub fn present(&self) -> Option<&[bool]> {
         self.present.as_deref()
     }
@@ -110,7 +110,7 @@ impl Column {
     }
 }
 
-/// A column in which every row has a value. The vector is moved without a copy.
+/// A column in which every row has a value. The values are not copied.
 ///
 /// ```
 /// use taceva_core::Column;

@@ -1,4 +1,4 @@
-//! Column of names, one per row.
+//! Column with a name or no name in each row.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -17,21 +17,21 @@ pub struct Labels {
     index: Vec<u32>,
 }
 
-/// Distinct names, shared with labels of the same rows in another order.
+/// Distinct names. [`Labels`] that differ only in the order of their rows share them.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Known {
     names: Vec<String>,
     lookup: HashMap<String, u32>,
 }
 
-/// Greatest number of table slots per row for the lookup of whole numbers; sparser numbers use a hash map.
+/// Maximum size of the lookup table for whole numbers, in entries per row. A larger range of numbers uses a hash map.
 const PLACES_A_ROW: usize = 4;
 
 impl Labels {
     /// Adds a row called `name`.
     ///
     /// # Panics
-    /// Beyond 2³² distinct names, which no memory holds.
+    /// If the labels would have 2³² distinct names.
     pub fn push(&mut self, name: &str) {
         // Rows of one name mostly follow each other.
         if let Some(&last) = self.index.last()
@@ -68,7 +68,7 @@ impl Labels {
     /// ```
     ///
     /// # Panics
-    /// Beyond 2³² distinct names, which no memory holds.
+    /// If the labels would have 2³² distinct names.
     pub fn of_numbers(numbers: impl IntoIterator<Item = i64>) -> Labels {
         let numbers: Vec<i64> = numbers.into_iter().collect();
         let mut labels = Labels::default();
@@ -97,7 +97,7 @@ impl Labels {
         labels
     }
 
-    /// Adds the name of the new `number` and returns its index.
+    /// Adds the digits of `number` as a name, without a row, and returns the index of the name.
     fn named(&mut self, number: i64) -> u32 {
         self.push(&number.to_string());
         // The caller adds the row.
@@ -112,7 +112,7 @@ impl Labels {
     /// The entry of [`index`](Labels::index) for a row without a name.
     pub const ABSENT: u32 = u32::MAX;
 
-    /// The distinct names, in the order of their first row.
+    /// The distinct names, in the order in which they were added.
     pub fn names(&self) -> &[String] {
         &self.known.names
     }

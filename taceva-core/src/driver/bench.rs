@@ -1,11 +1,11 @@
-//! Interface of a simulated bench: its virtual clock, and the exchange of specimens.
+//! Interface of a bench, which is a simulated rig: its virtual clock and the exchange of specimens.
 
 use std::time::Duration;
 
 use super::DriverError;
 use crate::specimen::Specimen;
 
-/// Simulated bench that several devices share. A [`Rig`](crate::Rig) stores the bench under the name with which its devices were opened.
+/// Simulated rig whose devices share one virtual clock. A [`Rig`](crate::Rig) stores each bench by its name, such as `sim bench`.
 ///
 /// ```
 /// use std::sync::{Arc, Mutex};
@@ -58,17 +58,17 @@ pub trait SimulatedBench: Send + Sync {
     /// Mounts another specimen on the robot.
     ///
     /// # Errors
-    /// [`DriverError`] of kind `InvalidArgument` for a specimen that the bench lacks, or while the tip is in the gel.
+    /// [`DriverError`] of kind `InvalidArgument` for a specimen that the bench lacks, or while the mounted specimen touches the gel.
     fn mount(&self, specimen: Specimen) -> Result<(), DriverError>;
 
-    /// Sets the number `name` of the press that begins now. Every random number of a press is a function of this number and the place. A
-    /// resumed run therefore has the same random errors as an uninterrupted run.
+    /// Numbers the next press as `name`. The random errors of a press depend only on this number and its place on the gel. A resumed run
+    /// therefore has the same random errors as an uninterrupted run.
     ///
     /// # Errors
     /// The errors of [`rest`](SimulatedBench::rest).
     fn name_press(&self, name: u64) -> Result<(), DriverError>;
 
-    /// Delays the next tare in the air until the time `at` on the bench's clock. A time in the past causes no delay.
+    /// Delays the next tare out of contact until the bench's clock reads `at`. A time in the past causes no delay.
     ///
     /// # Errors
     /// The errors of [`rest`](SimulatedBench::rest).

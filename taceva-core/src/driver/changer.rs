@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use super::{Deadline, DriverError, Interrupt};
 
-/// Moves one of its items into place: specimens under the robot (a tool changer, a carousel) or units of a sensor (a revolver, a slide).
+/// Device that moves one of its items into place: specimens under the robot (a tool changer, a carousel) or units of a sensor (a revolver, a slide).
 ///
 /// Items have names. A specimen's name is its displayed text ([`Specimen`](crate::Specimen)), such as `sphere of radius 4 mm` or `line grating of
-/// 1.5 mm`. A unit's name is its name in the scene file. A [`Lighting`](super::Lighting) names its scenes in the same way.
+/// 1.5 mm`. A unit's name is its name in the scene file.
 ///
 /// The robot is halted away from the gel while a changer moves. The robot moves again only after the changer has confirmed the requested
 /// item.
@@ -48,13 +48,13 @@ pub trait Changer: Send {
     fn holds(&self) -> &[String];
 
     /// Moves the item `name` into place, waits until the changer is at rest, and returns the name of the item in place. The sensors of the changer
-    /// report the returned name; without sensors, it is `name`. For an item already in place, the changer need not move.
+    /// measure the returned name. A changer without sensors returns `name`. For an item already in place, the changer need not move.
     ///
     /// After an error the item in place is unknown, and the changer is at rest or stops by itself.
     ///
     /// # Errors
-    /// [`DriverError`] of kind `InvalidArgument` for a name not in [`holds`](Changer::holds), `Timeout` if the item is late, `Interrupted`, or the
-    /// kind of the failure.
+    /// [`DriverError`] of kind `InvalidArgument` for a name not in [`holds`](Changer::holds), `Timeout` if the item is not in place within
+    /// `deadline`, or `Interrupted`. Other failures have other kinds.
     fn bring(&mut self, name: &str, deadline: Deadline) -> Result<String, DriverError>;
 
     /// Handle that interrupts a pending call and stops the changer, from any thread; `None` if calls of this changer never block.

@@ -22,7 +22,7 @@ impl Deadline {
     /// A deadline that has passed: the device returns at once, with a result or with a timeout.
     pub const PASSED: Deadline = Deadline::after(Duration::ZERO);
 
-    /// A deadline `remaining` from now.
+    /// A deadline with the time `remaining` left.
     pub const fn after(remaining: Duration) -> Deadline {
         Deadline { remaining }
     }
@@ -37,7 +37,7 @@ impl Deadline {
         self.remaining.is_zero()
     }
 
-    /// Remaining time minus `spent`, at least 0.
+    /// The same deadline with its remaining time reduced by `spent`, to at least 0.
     #[must_use]
     pub const fn less(self, spent: Duration) -> Deadline {
         Deadline::after(self.remaining.saturating_sub(spent))

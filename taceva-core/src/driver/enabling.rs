@@ -7,7 +7,7 @@ use super::DriverError;
 /// The switch is not a safety function: its state passes through an operating system and a program. The switch of the robot's own safety
 /// circuit remains necessary.
 ///
-/// A caller polls the switch at least as often as a release must be noticed, and treats an error as a release.
+/// A caller must poll the switch often enough to halt the robot in time, and treat an error as a release.
 ///
 /// ```
 /// use std::sync::atomic::{AtomicBool, Ordering};
@@ -32,10 +32,10 @@ use super::DriverError;
 /// assert!(!may_move(&Button::default()));
 /// ```
 pub trait EnablingSwitch: Send + Sync {
-    /// True if the switch has been held without a break since the last call. Reports a release once, even a short one. Never blocks. Before
-    /// the first received state, the switch counts as released.
+    /// True if the switch has been held without a break since the last call. After a short release, one call returns `false`. Never
+    /// blocks. Before the driver receives a state, the switch counts as released.
     ///
     /// # Errors
-    /// [`DriverError`] of kind `Disconnected` once the switch is gone, or of another kind if its state is unknown.
+    /// [`DriverError`] of kind `Disconnected` once the connection to the switch is lost, or of another kind if its state is unknown.
     fn is_held(&self) -> Result<bool, DriverError>;
 }

@@ -27,7 +27,7 @@ pub struct DriverError {
 }
 
 impl DriverError {
-    /// Error of `driver` during the operation `doing`, in words that follow "cannot": `capture a frame`.
+    /// Error of `driver` during an operation. `doing` names the operation in the message "cannot `doing`", such as `capture a frame`.
     pub fn new(
         kind: ErrorKind,
         driver: &DriverKey,
@@ -71,7 +71,7 @@ impl DriverError {
         &self.driver
     }
 
-    /// Failed operation, in words that follow "cannot".
+    /// Failed operation, such as `capture a frame`.
     pub fn doing(&self) -> &str {
         &self.doing
     }

@@ -1,4 +1,4 @@
-//! Robot motion that stops unless the host renews its command.
+//! Robot motion that stops unless the host repeats the command.
 
 use std::time::Duration;
 
@@ -8,7 +8,7 @@ use crate::stamp::Stamp;
 
 /// Ability of a robot to stop if its host stops sending. Each command is valid for a short time and is repeated many times a second.
 ///
-/// Meant for motions towards a surface. Other robots complete a motion even if the commanding program has ended.
+/// Use this for motions towards a surface. Robots without this ability complete a motion even if the commanding program has ended.
 ///
 /// ```
 /// use std::time::Duration;
@@ -29,7 +29,7 @@ use crate::stamp::Stamp;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait ExpiringMotion {
-    /// Moves as [`move_to`](super::Robot::move_to) does, and begins to brake at most [`EXPIRES`] after the last message of the host.
+    /// Moves as [`move_to`](super::Robot::move_to) does, and begins to brake at most 200 ms ([`EXPIRES`]) after the last message of the host.
     ///
     /// # Errors
     /// The errors of [`move_to`](super::Robot::move_to).
@@ -41,5 +41,5 @@ pub trait ExpiringMotion {
     ) -> Result<Stamp, DriverError>;
 }
 
-/// Longest time for which a robot moves on after the last message of its host, without the braking time.
+/// Maximum time from the last message of the host until the robot begins to brake.
 pub const EXPIRES: Duration = Duration::from_millis(200);

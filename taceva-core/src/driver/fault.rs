@@ -4,7 +4,7 @@ use crate::display::display;
 
 /// Fault for which a device stopped by itself, as reported by the device.
 ///
-/// After a fault, a run leaves the tip in place and does not clear the fault. A person acknowledges the fault at the device.
+/// After a fault, a run does not move the robot and does not clear the fault. A person acknowledges the fault at the device.
 ///
 /// ```
 /// use taceva_core::Fault;
@@ -33,7 +33,7 @@ impl Fault {
         Fault::Servo,
     ];
 
-    /// Words for the fault in messages.
+    /// Name of the fault in messages, such as `emergency stop`.
     pub const fn name(self) -> &'static str {
         match self {
             Fault::EmergencyStop => "emergency stop",

@@ -1,14 +1,14 @@
-//! Rejects NaN and infinity in values sent to a device or received from a device.
+//! Checks that reject NaN and infinity in values sent to a device or received from a device.
 
 use std::fmt;
 
 use crate::geometry::Pose;
 use crate::wrench::Wrench;
 
-/// Rejects a pose with a coordinate that is not finite.
+/// Checks that every coordinate of `pose` is finite.
 ///
 /// # Errors
-/// [`NotFinite`] with the name of the coordinate.
+/// [`NotFinite`] with the name of the first coordinate that is NaN or infinite.
 pub fn check_pose(pose: &Pose) -> Result<(), NotFinite> {
     let Pose { position, rotation } = pose;
     check(&[
@@ -21,10 +21,10 @@ pub fn check_pose(pose: &Pose) -> Result<(), NotFinite> {
     ])
 }
 
-/// Rejects a wrench with a component that is not finite.
+/// Checks that every force and torque of `wrench` is finite.
 ///
 /// # Errors
-/// [`NotFinite`] with the name of the component.
+/// [`NotFinite`] with the name of the first component that is NaN or infinite.
 pub fn check_wrench(wrench: &Wrench) -> Result<(), NotFinite> {
     let Wrench { force, torque } = wrench;
     check(&[
@@ -44,7 +44,7 @@ fn check(named: &[(&'static str, f64)]) -> Result<(), NotFinite> {
     }
 }
 
-/// A NaN or infinite number in place of a finite number.
+/// Error for NaN or infinity where a finite number is required.
 ///
 /// ```
 /// use taceva_core::{Newton, Wrench, check_wrench};

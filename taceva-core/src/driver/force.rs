@@ -51,7 +51,7 @@ pub trait ForceTransducer: Send {
     /// Components that the transducer measures. The other components are 0 in every reading and have no meaning.
     fn axes(&self) -> Axes;
 
-    /// Starts the readings. Does nothing if the transducer needs no start.
+    /// Starts the measurement. Does nothing if the transducer needs no start.
     ///
     /// # Errors
     /// The errors of [`Sensor::start`](super::Sensor::start).
@@ -70,19 +70,19 @@ pub trait ForceTransducer: Send {
     /// - `Disconnected` or `EndOfStream` if no further reading can arrive.
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError>;
 
-    /// Sequence number of the last reading; `None` if the device does not number readings. A frozen link or device repeats the number, even
-    /// under a new stamp. The numbers may restart, so compare them for equality only.
+    /// Sequence number of the last reading; `None` if the device does not number readings. A frozen device repeats the number, even if the
+    /// time stamp is new. The numbers may restart, so compare them for equality only.
     fn sequence(&self) -> Option<u64> {
         None
     }
 
-    /// Number of readings lost between device and host since the transducer was opened; `None` if the driver does not count them. Readings that a
-    /// newer reading overwrote before the caller read them do not count.
+    /// Number of readings lost between device and host since the transducer was opened; `None` if the driver does not count them. A reading
+    /// overwritten before the caller read it does not count as lost.
     fn lost(&self) -> Option<u64> {
         None
     }
 
-    /// Stops the readings; may be called in every state.
+    /// Stops the measurement; may be called in every state.
     ///
     /// # Errors
     /// [`DriverError`] if the device does not confirm the stop.
@@ -95,7 +95,7 @@ pub trait ForceTransducer: Send {
         None
     }
 
-    /// Step between two neighbouring force readings, as reported by the device; `None` if the device has not reported a step.
+    /// Smallest step between two different force values, as reported by the device; `None` if the device has not reported a step.
     fn resolution(&self) -> Option<Newton> {
         None
     }
@@ -110,7 +110,7 @@ pub trait ForceTransducer: Send {
         Vec::new()
     }
 
-    /// Tare of the transducer; `None` if unsupported.
+    /// Interface to tare the transducer; `None` if the transducer cannot be tared.
     fn tare(&mut self) -> Option<&mut dyn Tare> {
         None
     }
@@ -179,7 +179,7 @@ pub enum Axis {
     Fx,
     /// Force along y.
     Fy,
-    /// Normal force.
+    /// Normal force, along z.
     Fz,
     /// Torque about x.
     Tx,
@@ -219,7 +219,7 @@ pub struct Axes(u8);
 impl Axes {
     /// No component.
     pub const NONE: Axes = Axes(0);
-    /// Only the normal force.
+    /// Only the normal force `Fz`.
     pub const NORMAL: Axes = Axes::NONE.with(Axis::Fz);
     /// The three forces.
     pub const FORCE: Axes = Axes::NORMAL.with(Axis::Fx).with(Axis::Fy);

@@ -42,7 +42,7 @@ use crate::stamp::Stamp;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait GuardedMotion {
-    /// Moves as [`move_to`](super::Robot::move_to) does, and stops once the force reaches `guard`.
+    /// Moves as [`move_to`](super::Robot::move_to) does, and stops once the force reaches the limit in `guard`.
     ///
     /// # Errors
     /// The errors of [`move_to`](super::Robot::move_to); also `InvalidArgument` for a guard that is not above 0 N.
@@ -55,7 +55,7 @@ pub trait GuardedMotion {
     ) -> Result<GuardedStop, DriverError>;
 }
 
-/// Condition that ends a guarded motion.
+/// Force limit that ends a guarded motion.
 ///
 /// ```
 /// use taceva_core::{Guard, Newton};
@@ -69,7 +69,7 @@ pub struct Guard {
 }
 
 impl Guard {
-    /// The guard that ends a motion only at `force`.
+    /// A guard that ends a motion when the force reaches `force`.
     pub const fn at(force: Newton) -> Guard {
         Guard { force }
     }
@@ -85,16 +85,16 @@ impl Guard {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GuardedStop {
-    /// The tip rests at the target; the force did not reach the guard.
+    /// The robot rests at the target; the force did not reach the limit.
     Arrived {
-        /// Time at which the tip came to rest.
+        /// Time at which the robot came to rest.
         stamp: Stamp,
     },
-    /// The force reached the guard.
+    /// The force reached the limit, and the robot stopped.
     Guarded {
-        /// Pose at rest, beyond the pose at which the force reached the guard.
+        /// Pose of the tip at rest, after the braking distance.
         pose: Pose,
-        /// Time at which the tip came to rest.
+        /// Time at which the robot came to rest.
         stamp: Stamp,
     },
 }

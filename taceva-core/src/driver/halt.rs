@@ -1,8 +1,8 @@
-//! Halting a robot from another thread.
+//! Handle to halt a robot from another thread.
 
 use super::DriverError;
 
-/// Stops its robot from any thread, in every state, during any other call.
+/// Handle that stops a robot from any thread, in every state, during any other call.
 ///
 /// The handle may outlive the robot: once the robot is dropped, the halt succeeds without effect. The halt is not a safety function: only the
 /// emergency stop of the site is.
@@ -29,7 +29,7 @@ use super::DriverError;
 /// # Ok::<(), DriverError>(())
 /// ```
 pub trait Halt: Send + Sync {
-    /// Stops the motion within 50 ms and latches, see [`Robot`](super::Robot). Never waits for the end of another call.
+    /// Stops the motion within 50 ms. Later moves fail until [`clear_halt`](super::Robot::clear_halt). Never waits for the end of another call.
     ///
     /// # Errors
     /// [`DriverError`] of kind `Disconnected` if the robot did not receive the stop. The halt is still latched on the host.

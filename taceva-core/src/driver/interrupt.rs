@@ -1,9 +1,9 @@
-//! Interrupting a call from another thread.
+//! Handle to interrupt a call from another thread.
 
-/// Interrupts the pending call of a device, from any thread.
+/// Handle that interrupts the pending call of a device, from any thread.
 ///
 /// A waiting call returns [`ErrorKind::Interrupted`](crate::ErrorKind::Interrupted) within 50 ms and leaves the device usable. Without a
-/// pending call nothing happens. The handle may outlive the device.
+/// pending call, the handle does nothing. The handle may outlive the device.
 ///
 /// ```
 /// use std::sync::mpsc::{SyncSender, sync_channel};
@@ -24,6 +24,6 @@
 /// assert!(receiver.recv().is_ok());
 /// ```
 pub trait Interrupt: Send + Sync {
-    /// Interrupts the pending call, without waiting for the call to return.
+    /// Interrupts the pending call. Returns at once, even if that call has not returned.
     fn interrupt(&self);
 }

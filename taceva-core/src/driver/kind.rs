@@ -14,15 +14,15 @@ use crate::display::display;
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 #[non_exhaustive]
 pub enum DriverKind {
-    /// Captures pictures of a gel.
+    /// Device that captures pictures of a gel.
     Sensor,
-    /// Moves the indenter.
+    /// Device that moves the indenter.
     Robot,
-    /// Measures the force on the gel.
+    /// Device that measures the force of the indenter on the gel.
     Force,
-    /// Sets the light around the sensor.
+    /// Device that sets the light around the sensor.
     Lighting,
-    /// Moves specimens or units of a sensor into place.
+    /// Device that moves specimens or units of a sensor into place.
     Changer,
 }
 
@@ -50,7 +50,7 @@ impl DriverKind {
 
 display!(DriverKind, name);
 
-/// A device trait as a type, such as `dyn Sensor`. Registries and factories are generic over this type.
+/// Trait of the types `dyn Sensor`, `dyn Robot` and so on, one per kind of device. Registries and factories are generic over these types.
 ///
 /// ```
 /// use taceva_core::{Device, DriverKind, Robot};

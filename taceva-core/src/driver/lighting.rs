@@ -2,9 +2,9 @@
 
 use super::{Deadline, DriverError};
 
-/// External light on a sensor, with named scenes.
+/// External light on a sensor. Its settings are called scenes and have names, such as `dark`.
 ///
-/// The light inside a sensor belongs to the sensor. Arguments of the sensor set this light.
+/// Arguments of the sensor set the light inside the sensor.
 ///
 /// ```
 /// use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Lighting};
@@ -36,7 +36,7 @@ use super::{Deadline, DriverError};
 /// # Ok::<(), DriverError>(())
 /// ```
 pub trait Lighting: Send {
-    /// Names of the scenes, in the order of a sweep. The first scene is the calibration scene.
+    /// Names of the scenes. By default, a run sets them in this order and calibrates the sensor in the first scene.
     fn scenes(&self) -> &[String];
 
     /// Sets the scene called `scene` and returns once the light is steady.

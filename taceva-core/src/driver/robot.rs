@@ -15,7 +15,7 @@ use crate::stamp::Stamp;
 /// # The physical contract
 /// - Opening moves nothing: the robot keeps its position.
 /// - [`move_to`](Robot::move_to) moves the tip along a straight line and blocks until the tip rests. No other call moves the tip.
-/// - [`halt`](Robot::halt) stops the motion and latches: the robot refuses every later move with `Interrupted` until
+/// - [`halt`](Robot::halt) stops the motion. The robot then refuses every later move with `Interrupted` until
 ///   [`clear_halt`](Robot::clear_halt). A halt between two moves is therefore never lost.
 /// - After an error the robot is at rest. `pose`, `halt` and `clear_halt` are then safe to call.
 ///
@@ -74,7 +74,7 @@ use crate::stamp::Stamp;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Robot: Send {
-    /// Pose of the tip, and the time of the pose.
+    /// Pose of the tip of the indenter, and the time of the pose.
     ///
     /// # Errors
     /// [`DriverError`] of kind `Timeout`, `Disconnected`, or `DeviceFault` for a coordinate that is not finite.
@@ -87,7 +87,7 @@ pub trait Robot: Send {
     /// # Errors
     /// [`DriverError`] of kind
     /// - `InvalidArgument` for a coordinate that is not finite,
-    /// - `OutOfRange` for a target outside the workspace or a speed above the greatest; the robot does not move,
+    /// - `OutOfRange` for a target outside the workspace or a speed above the maximum; the robot does not move,
     /// - `Timeout` if the tip did not arrive within `deadline`,
     /// - `Interrupted` if the robot was halted, before or during the motion,
     /// - `DeviceFault` if the robot reports a fault. The error includes the [`Fault`](super::Fault) if its kind is known.
@@ -106,7 +106,7 @@ pub trait Robot: Send {
         None
     }
 
-    /// True if the device reports that it is emulated. Recordings with an emulated robot are not measurements.
+    /// True if the device reports that software emulates the robot. Recordings with an emulated robot are not measurements.
     fn is_emulated(&self) -> bool {
         false
     }
@@ -138,12 +138,12 @@ pub trait Robot: Send {
     /// [`DriverError`] of kind `DeviceFault` if the device still reports a fault that a person must acknowledge.
     fn clear_halt(&mut self, deadline: Deadline) -> Result<(), DriverError>;
 
-    /// Motion that the robot ends at a force limit; `None` if unsupported.
+    /// Interface to motions that the robot ends at a force limit; `None` if the robot lacks them.
     fn guarded_motion(&mut self) -> Option<&mut dyn GuardedMotion> {
         None
     }
 
-    /// Motion that the robot ends if its host stops sending; `None` if unsupported.
+    /// Interface to motions that the robot ends if its host stops sending; `None` if the robot lacks them.
     fn expiring_motion(&mut self) -> Option<&mut dyn ExpiringMotion> {
         None
     }

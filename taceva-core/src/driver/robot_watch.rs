@@ -1,10 +1,10 @@
-//! Reading the pose of a robot from another thread.
+//! Handle to read the pose of a robot from another thread.
 
 use super::{Deadline, DriverError};
 use crate::geometry::Pose;
 use crate::stamp::Stamp;
 
-/// Reads the pose of a robot during a motion, from any thread, over a separate connection.
+/// Handle that reads the pose of a robot during a motion, from any thread, over a separate connection.
 ///
 /// The handle may outlive the robot. The calls then return `Disconnected`.
 ///
@@ -17,10 +17,10 @@ use crate::stamp::Stamp;
 /// }
 /// ```
 pub trait RobotWatch: Send + Sync {
-    /// Present pose of the tip, and the time of the pose. Never waits for the end of a motion.
+    /// Present pose of the tip of the indenter, and the time of the pose. Never waits for the end of a motion.
     ///
     /// # Units
-    /// Like [`Robot::pose`](super::Robot::pose): mm and degrees in the sensor's frame.
+    /// The units of [`Robot::pose`](super::Robot::pose): mm and degrees in the sensor's frame.
     /// # Errors
     /// [`DriverError`] of kind `Timeout` if no pose arrived within `deadline`, `Disconnected`, or `DeviceFault`, with its
     /// [`Fault`](super::Fault) if the robot names one.

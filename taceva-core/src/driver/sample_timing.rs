@@ -1,4 +1,4 @@
-//! Checks of a device's declared rate and time stamps.
+//! Checks of the time stamps of a device, and of its rate against the declared rate.
 
 use std::fmt;
 use std::time::{Duration, Instant};
@@ -7,20 +7,20 @@ use super::stamp_rate::{StampRate, StampWindows};
 use crate::quantity::Hertz;
 use crate::stamp::Stamp;
 
-/// Late limit, in periods of the declared rate.
+/// Time that a sample may take before it is late, in periods of the declared rate.
 const LATE_PERIODS: f64 = 10.0;
-/// Minimum of the late limit, s. Links and busy machines deliver many samples at once, and a driver keeps the newest.
+/// Time that a sample may take at any rate before it is late, s. Links and busy machines deliver many samples at once.
 const LATE_LEAST_S: f64 = 0.05;
-/// Number of consecutive late samples that is an error of the device.
+/// Number of consecutive late samples that causes [`TimingError::Late`].
 const LATE_MAX: u32 = 10;
-/// Greatest accepted jump of stamps, s.
+/// Greatest accepted jump of the time stamps of a device, s.
 const JUMP_S: f64 = 60.0;
 
 /// Checks the delays and stamps of the samples of one device.
 ///
 /// A sample is late if the calls for this sample took more than ten periods of the declared rate and more than 50 ms. Ten consecutive late samples
-/// are an error, and so is a stamp that jumps by more than a minute. A sample from a queue may be old. Stamps in another unit are an error
-/// [if wanted](SampleTiming::with_unit_check).
+/// are an error, and so is a stamp that jumps by more than a minute. An old stamp is accepted, because samples may wait in a queue.
+/// [`with_unit_check`](SampleTiming::with_unit_check) also rejects stamps in another unit.
 ///
 /// ```
 /// use std::time::{Duration, Instant};
@@ -35,29 +35,29 @@ const JUMP_S: f64 = 60.0;
 /// ```
 #[derive(Clone, Debug)]
 pub struct SampleTiming {
-    /// False for a device whose clock is not the clock of its host.
+    /// False for a simulated device or a recording, whose samples are not checked.
     is_checked: bool,
     rate: Option<Hertz>,
     /// Duration of the calls since the last sample.
     waited: Duration,
     late: u32,
     last: Option<Last>,
-    /// Comparison of the stamps with the clock of the host; `None` if it is not wanted.
+    /// Check of the unit of the stamps; `None` if the check is off.
     windows: Option<StampWindows>,
 }
 
-/// The last accepted sample.
+/// Times of the accepted samples so far.
 #[derive(Clone, Copy, Debug)]
 struct Last {
     /// Time of arrival of the first sample.
     begun: Instant,
     stamp_s: f64,
-    /// Greatest difference between a stamp and the time since `begun`, s.
+    /// Greatest difference so far between a stamp and the time from `begun` to the arrival of its sample, s.
     ahead_s: f64,
 }
 
 impl SampleTiming {
-    /// Timing of a device with the declared `rate`; `None` if the device declares no rate.
+    /// Checks for a device that declares `rate`. With `None`, delays are not checked.
     pub fn of(rate: Option<Hertz>) -> SampleTiming {
         SampleTiming {
             is_checked: true,
@@ -69,7 +69,7 @@ impl SampleTiming {
         }
     }
 
-    /// Also refuses stamps that advance by less than 0.5 % of the time of the calls: they are in another unit. For a real device.
+    /// The same checks, and one for stamps in another unit: they advance by less than 0.5 % of the duration of the calls. For real devices.
     #[must_use]
     pub fn with_unit_check(self) -> SampleTiming {
         SampleTiming {
@@ -131,7 +131,7 @@ impl SampleTiming {
         })
     }
 
-    /// Checks a stamp against the newest stamp on the clock of the host, and against the last stamp.
+    /// Rejects a stamp more than [`JUMP_S`] before the last stamp, and a stamp that gains more than this on the clock of the host.
     fn check_stamp(&mut self, now: Instant, stamp_s: f64) -> Result<(), TimingError> {
         let begun = self.last.map_or(now, |last| last.begun);
         let ahead_s = stamp_s - now.saturating_duration_since(begun).as_secs_f64();
@@ -156,7 +156,7 @@ impl SampleTiming {
     }
 }
 
-/// A device whose samples are late, or whose stamps jump or are in another unit.
+/// Error of a device whose samples are late, or whose stamps jump or are in another unit.
 ///
 /// ```
 /// use taceva_core::TimingError;
@@ -170,21 +170,21 @@ pub enum TimingError {
     Late {
         /// Number of consecutive late samples.
         samples: u32,
-        /// Ten periods or 50 ms, the longer, s.
+        /// Time that a sample may take before it is late, s: ten periods, but at least 0.05 s.
         limit_s: f64,
         /// Duration of the calls for the last sample, s.
         took_s: f64,
         /// Declared rate.
         rate: Hertz,
     },
-    /// A stamp far ahead of the host's clock, or far before the last stamp.
+    /// The stamps gain more than a minute on the host's clock, or jump back by more than a minute.
     Jump {
         /// Size of the jump, s; negative for a jump back in time.
         jump_s: f64,
     },
     /// Stamps that advance far more slowly than the clock of the host.
     Unit {
-        /// Rate of the stamps.
+        /// Advance of the stamps per second of the host's clock, in s.
         rate: StampRate,
     },
 }
@@ -223,7 +223,7 @@ mod tests {
         SampleTiming::of(Some(Hertz(100.0)))
     }
 
-    /// Adds `count` samples that each take `took`, with stamps `took` apart.
+    /// Adds to `timing` `count` samples that each take `took`, with stamps `took` apart.
     fn taken(timing: &mut SampleTiming, count: u32, took: Duration) -> Result<(), TimingError> {
         let begun = Instant::now();
         (1..=count).try_for_each(|number| {

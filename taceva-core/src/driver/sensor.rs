@@ -37,7 +37,7 @@ pub trait Sensor: Send {
     /// Size and format of every frame. Both are constant while the sensor is open.
     fn frame_info(&self) -> FrameInfo;
 
-    /// Starts the frames. Does nothing if the sensor needs no start.
+    /// Starts the capture of frames. Does nothing if the sensor needs no start.
     ///
     /// # Errors
     /// [`DriverError`] if the device does not answer within `deadline`, is in use by another program, or is disconnected.
@@ -59,8 +59,8 @@ pub trait Sensor: Send {
     /// - `Disconnected` or `EndOfStream` if no further frame can arrive.
     fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError>;
 
-    /// Sequence number of the last frame; `None` if neither device nor link counts frames. The first number is arbitrary. A gap between two
-    /// numbers means that frames were lost, or not read in time.
+    /// Sequence number of the last frame; `None` if neither the device nor its link numbers frames. The first number is arbitrary. A gap
+    /// between two numbers means that frames were lost, or not read in time.
     fn sequence(&self) -> Option<u64> {
         None
     }
@@ -70,7 +70,7 @@ pub trait Sensor: Send {
         None
     }
 
-    /// Stops the frames; may be called in every state.
+    /// Stops the capture of frames; may be called in every state.
     ///
     /// # Errors
     /// [`DriverError`] if the device does not confirm the stop.
@@ -88,13 +88,13 @@ pub trait Sensor: Send {
         BTreeMap::new()
     }
 
-    /// True if this machine stamps the frames: on arrival, or by its kernel. The drift of any other clock is subtracted from the stamps. Plugins
-    /// cannot report this fact.
+    /// True if the frames have time stamps of the host's clock. If false, the drift of the device's clock is subtracted from the stamps. A sensor
+    /// of a plugin always returns false.
     fn is_stamped_by_host(&self) -> bool {
         false
     }
 
-    /// Settable light around this sensor; `None` if the sensor has none.
+    /// Control of the light around this sensor; `None` if the sensor cannot set this light.
     fn lighting(&mut self) -> Option<&mut dyn Lighting> {
         None
     }

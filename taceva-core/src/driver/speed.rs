@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Speed of a tip along its path: above 0 and finite.
+/// Speed of the tip of the indenter along its path: above 0 and finite.
 ///
 /// # Units
 /// mm/s.

@@ -1,15 +1,15 @@
-//! Rate of the stamps of a device on the clock of its host. This rate reveals stamps in another unit.
+//! Advance of the time stamps of a device per second of its host. This rate reveals stamps in another unit than expected.
 
 use std::fmt;
 
-/// Least rate of stamps that follow the clock of the host; the next constant is the greatest rate.
+/// Least rate of stamps that follow the clock of the host, whose own rate is 1. [`RATE_MAX`] is the greatest rate.
 const RATE_MIN: f64 = 0.5;
 const RATE_MAX: f64 = 2.0;
-/// Greatest factor between a measured rate and the rate of a mistaken unit in [`UNITS`]: about √1000.
+/// A measured rate belongs to a rate in [`UNITS`] if the two differ by less than this factor, about √1000.
 const UNIT_FACTOR: f64 = 30.0;
-/// Least rate that a smaller unit does not explain. A busy host that falls behind a queue of thousands of samples a second sees low rates too.
+/// Stamps with a lower rate are in another unit. A busy host that falls behind thousands of samples a second sees low rates above this limit.
 const SMALLER_UNIT_MAX: f64 = 0.005;
-/// Rates of mistaken units.
+/// Rates of stamps in a mistaken unit, with the mistaken and the expected unit.
 const UNITS: [(f64, &str); 6] = [
     (1e-9, "seconds where nanoseconds are expected"),
     (1e-6, "milliseconds where nanoseconds are expected"),
@@ -38,19 +38,19 @@ impl StampRate {
         StampRate(stamps_s / host_s)
     }
 
-    /// True for a rate near 1. Samples that waited in a queue change the rate by less than a factor of 2.
+    /// True for a rate from 0.5 to 2. Samples that waited in a queue change a rate of 1 by less than a factor of 2.
     pub fn is_of_host_clock(self) -> bool {
         (RATE_MIN..=RATE_MAX).contains(&self.0)
     }
 
-    /// Mistaken unit of the stamps, and the expected unit; `None` if no unit has this rate.
+    /// Mistaken and expected unit of the stamps in words; `None` if no mistaken unit leads to this rate.
     pub fn unit(self) -> Option<&'static str> {
         let is_near = |rate: f64| self.0 > rate / UNIT_FACTOR && self.0 < rate * UNIT_FACTOR;
         let unit = UNITS.into_iter().find(|(rate, _)| is_near(*rate));
         unit.map(|(_, words)| words)
     }
 
-    /// True for a rate so low that only another unit explains it.
+    /// True for a rate so low that the stamps must be in another unit.
     fn is_of_smaller_unit(self) -> bool {
         self.0 < SMALLER_UNIT_MAX
     }
@@ -73,28 +73,28 @@ impl fmt::Display for StampRate {
     }
 }
 
-/// Minimum number of samples in a window; the next constant is the minimum time that the host waits for these samples, s.
+/// Minimum number of samples in a window, over which one rate is computed. [`WINDOW_S`] is the minimum duration of the calls, s.
 const SAMPLES_MIN: u32 = 2;
 const WINDOW_S: f64 = 0.2;
-/// Number of consecutive windows with stamps of a smaller unit that is an error of the device. A queue after a pause of the host fills one window.
+/// Number of consecutive rates below [`SMALLER_UNIT_MAX`] that is an error. Samples queued in a pause of the host lower one rate only.
 const SLOW_MAX: u32 = 3;
 
-/// Windows of samples, in which stamps are compared with the time of the calls for these samples. Pauses between calls do not count.
+/// Computes the rate of the stamps over each window of consecutive samples. The host's time is that of the calls, without pauses between them.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct StampWindows {
-    /// Stamp at the start of the present window, s; `None` before the first sample.
+    /// Stamp at the start of the unfinished window, s; `None` before the first sample.
     begun_s: Option<f64>,
     samples: u32,
     waited_s: f64,
-    /// Rate in the last complete window.
+    /// Rate of the stamps over the last finished window.
     rate: Option<StampRate>,
-    /// Number of consecutive windows with stamps of a smaller unit.
+    /// Number of consecutive windows with a rate below [`SMALLER_UNIT_MAX`].
     slow: u32,
 }
 
 impl StampWindows {
-    /// Adds a sample with the stamp `stamp_s`, for which the calls took `waited_s`, both in s. Returns the rate if [`SLOW_MAX`] consecutive windows
-    /// have stamps of a smaller unit.
+    /// Adds a sample with the stamp `stamp_s`, s. The calls for the sample took `waited_s`, s. Returns the last rate once [`SLOW_MAX`] consecutive
+    /// rates are below [`SMALLER_UNIT_MAX`].
     pub(super) fn add(&mut self, stamp_s: f64, waited_s: f64) -> Option<StampRate> {
         let Some(begun_s) = self.begun_s else {
             self.begun_s = Some(stamp_s);
@@ -124,7 +124,7 @@ impl StampWindows {
 mod tests {
     use super::*;
 
-    /// Samples of one device.
+    /// Windows of one device, with the stamp of its last sample.
     #[derive(Default)]
     struct Samples {
         windows: StampWindows,
@@ -132,7 +132,7 @@ mod tests {
     }
 
     impl Samples {
-        /// Adds `count` samples that each take `waited_s`, with stamps `step_s` apart. Returns the result of the last one.
+        /// Adds `count` samples that each take `waited_s`, with stamps `step_s` apart. Returns the result for the last sample.
         fn add(&mut self, count: u32, waited_s: f64, step_s: f64) -> Option<StampRate> {
             (0..count).fold(None, |_, _| {
                 self.stamp_s += step_s;
