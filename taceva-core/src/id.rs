@@ -1,4 +1,4 @@
-//! Names of drivers, identical on the command line, in scenes and in the registry.
+//! Keys of drivers. Command line, scenes and registry use the same keys.
 
 use std::borrow::{Borrow, Cow};
 use std::fmt;
@@ -21,7 +21,7 @@ impl DriverKey {
     /// Longest key, in bytes.
     pub const LENGTH_MAX: usize = 128;
 
-    /// Key from a constant.
+    /// Key from the text `key`, for constants.
     ///
     /// # Panics
     /// If `key` is not a valid key. In a constant, the compiler reports this as an error.
@@ -84,7 +84,7 @@ impl fmt::Display for DriverKey {
     }
 }
 
-/// Text that is not a driver key.
+/// Error for text that is not a driver key.
 ///
 /// ```
 /// use taceva_core::DriverKey;
