@@ -210,9 +210,9 @@ pub trait SavedRegressor: Regressor {
 pub struct Saved<'a> {
     /// Bytes from [`SavedRegressor::save`].
     pub bytes: &'a [u8],
-    /// Predicted channels.
+    /// Channels that the model predicts.
     pub channels: &'a Channels,
-    /// Required shape of features.
+    /// Shape of the features that the model takes.
     pub shape: FeatureShape,
 }
 

@@ -1,10 +1,10 @@
-//! Random numbers that are the same on every machine: words of the generator SplitMix64, computed by counter or drawn in sequence.
+//! Random numbers that are the same on every machine, from the generator SplitMix64.
 //!
-//! A number computed by counter depends on a key and a counter, never on earlier draws. Use [`Draws`] if work may be resumed, reordered
-//! or divided among threads. [`SplitMix64`] draws the same words in sequence. [`mix`] makes keys: combine a seed with a purpose, a press
-//! or a sample by exclusive or, and mix after each.
+//! [`SplitMix64`] draws numbers in sequence. [`Draws`] computes each number from a key and a counter, without earlier draws. Use [`Draws`] if work
+//! may be resumed, reordered or divided among threads. [`mix`] makes keys from a seed: for each purpose, press or sample, combine its number with the
+//! key by exclusive or, and call `mix`.
 //!
-//! These numbers are not fit for cryptography.
+//! Do not use these numbers for cryptography.
 //!
 //! ```
 //! use taceva_core::random::{Draws, SplitMix64, mix};
@@ -28,7 +28,7 @@ pub use draws::Draws;
 pub use fnv::{FNV_OFFSET, fnv_1a, fnv_1a_after};
 pub use sequence::SplitMix64;
 
-/// Increment of the state of SplitMix64 per step: 2⁶⁴ over the golden ratio, odd.
+/// Increment of the state of SplitMix64 per number: 2⁶⁴ divided by the golden ratio, rounded to an odd number.
 ///
 /// ```
 /// use taceva_core::random::{STEP, finalise, mix};
