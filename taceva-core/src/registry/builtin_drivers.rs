@@ -13,12 +13,12 @@ impl<D: Device + ?Sized + 'static> Registry<D>
 where
     Builtin<D>: inventory::Collect,
 {
-    /// The linked-in drivers of this kind, sorted by key.
+    /// Registry of the linked-in drivers for this kind of device.
     ///
-    /// A crate that only `Cargo.toml` names is not linked, so its drivers are missing. `use the_crate as _;` links the crate.
+    /// Rust does not link a crate that is only named in `Cargo.toml`, so its drivers are missing. `use the_crate as _;` links the crate.
     ///
     /// # Errors
-    /// [`RegistryError`] if two drivers have one key, or the description of a driver contradicts itself.
+    /// [`RegistryError`] if two drivers have the same key, or entries in the description of a driver contradict each other.
     pub fn builtin() -> Result<Registry<D>, RegistryError> {
         let mut registry = Registry::empty();
         for builtin in inventory::iter::<Builtin<D>> {
