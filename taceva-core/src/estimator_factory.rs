@@ -98,10 +98,10 @@ pub trait EstimatorFactory: Send + Sync {
     /// Loads a saved model.
     ///
     /// # Errors
-    /// [`ModelError`] of kind `Protocol` for bytes that this estimator did not save, whether damaged or hostile.
+    /// [`ModelError`] of kind `Protocol` for damaged or hostile bytes, which this estimator did not save.
     fn load(&self, saved: &Saved<'_>) -> Result<Box<dyn SavedRegressor>, ModelError>;
 
-    /// Digest of the estimator's library, `sha256:` and 64 hexadecimal digits; `None` if the estimator is linked into the program.
+    /// Digest of the plugin library with the estimator: `sha256:` and 64 hexadecimal digits. `None` if the estimator is linked into the program.
     ///
     /// # Errors
     /// [`ModelError`] if the library cannot be read.
@@ -136,9 +136,9 @@ pub trait EstimatorFactory: Send + Sync {
 pub struct FitRequest<'a> {
     /// Settings, checked against the declarations of the estimator.
     pub settings: &'a Args,
-    /// Samples for the fit.
+    /// Samples on which the model is fitted.
     pub training: &'a TrainingSet<'a>,
-    /// Samples for the choice of settings; `None` if there are none.
+    /// Samples on which settings are chosen; `None` if the request has none.
     pub validation: Option<&'a TrainingSet<'a>>,
     /// Receives the progress of the fit and can cancel the fit.
     pub progress: &'a dyn Progress,
@@ -159,7 +159,7 @@ impl<'a> FitRequest<'a> {
         }
     }
 
-    /// The same fit with samples for the choice of settings.
+    /// Adds samples on which settings are chosen.
     #[must_use]
     pub fn with_validation(
         self,

@@ -1,4 +1,4 @@
-//! Sensing surface of a sensor. The surface is declared and not derived from samples, so positions are binned alike in every recording.
+//! Sensing surface of a sensor. The surface is declared and not derived from samples, so the bins of positions do not depend on the samples.
 
 use std::fmt;
 
@@ -49,7 +49,7 @@ impl Footprint {
     /// Disc with the radius `radius_mm` and the greatest indentation `depth_max_mm`.
     ///
     /// # Errors
-    /// [`FootprintError`] for a length that is not positive, or beyond 10 m.
+    /// [`FootprintError`] for a length that is not above 0, or is above 10 m.
     pub fn disc(radius_mm: f64, depth_max_mm: Option<f64>) -> Result<Footprint, FootprintError> {
         let radius = length("radius_mm", radius_mm)?;
         Footprint::new(Outline::Disc { radius }, depth_max_mm)
@@ -127,7 +127,7 @@ fn length(name: &'static str, millimetres: f64) -> Result<Nanometre, FootprintEr
     length.ok_or(FootprintError { name, millimetres })
 }
 
-/// A length of a footprint that is not above 0, or beyond 10 m.
+/// Error for a length of a footprint that is not above 0, or is above 10 m.
 ///
 /// ```
 /// use taceva_core::Footprint;

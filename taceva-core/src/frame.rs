@@ -25,7 +25,7 @@ impl Frame {
     /// Frame with the pixels `bytes`.
     ///
     /// # Shapes
-    /// `bytes`: height × width × samples × bytes per sample.
+    /// `bytes`: height × width × samples per pixel × bytes per sample.
     /// # Errors
     /// [`FrameError`] if `bytes` has another length.
     pub fn new(info: FrameInfo, bytes: Vec<u8>) -> Result<Frame, FrameError> {
@@ -63,9 +63,9 @@ impl Frame {
 const STEPS_OF_16_BIT: u64 = 256;
 
 impl Frame {
-    /// Mean over all pixels of the luma (299 R + 587 G + 114 B) / 1000, on the 8-bit scale from 0 to 255; 0 for a frame without pixels.
+    /// Mean luma of all pixels, on the 8-bit scale from 0 to 255; 0 for a frame without pixels. The luma is (299 R + 587 G + 114 B) / 1000.
     ///
-    /// Lumas are summed exactly and the mean is rounded once, up to 35 · 10⁹ 8-bit pixels or 137 · 10⁶ 16-bit pixels.
+    /// The mean is rounded once, from an exact sum, for up to 35 · 10⁹ 8-bit pixels or 137 · 10⁶ 16-bit pixels.
     ///
     /// ```
     /// use taceva_core::{Frame, FrameInfo, PixelFormat};
@@ -104,7 +104,7 @@ impl Frame {
     }
 }
 
-/// Sum of 299 R + 587 G + 114 B over samples in the order red, green, blue.
+/// Sum of 299 R + 587 G + 114 B over all pixels. `samples` are the red, green and blue sample of each pixel in turn.
 fn weighted(samples: impl Iterator<Item = u64>) -> u64 {
     let mut sums = [0; 3];
     for (position, sample) in samples.enumerate() {

@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::quantity::{Degree, Millimetre};
 
-/// A point in the coordinates of the sensor: x and y along the gel's surface, z into the gel. This struct gets no further fields: space has three
+/// A point in the coordinates of the sensor: x and y along the gel's surface, z into the gel. This struct gets no further fields: there are three
 /// axes.
 ///
 /// ```

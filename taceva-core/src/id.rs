@@ -4,9 +4,9 @@ use std::borrow::{Borrow, Cow};
 use std::fmt;
 use std::str::FromStr;
 
-/// The name of a driver: words joined by `/`, such as `sim/gelsight` or `org.example.digit/digit`.
+/// Name of a driver: words joined by `/`, such as `sim/gelsight` or `org.example.digit/digit`.
 ///
-/// A word is made of lower-case letters, digits, `-`, `_` and `.`, and begins with a letter or a digit.
+/// A word contains lower-case letters, digits, `-`, `_` and `.`, and begins with a letter or a digit.
 ///
 /// ```
 /// use taceva_core::DriverKey;
@@ -18,7 +18,7 @@ use std::str::FromStr;
 pub struct DriverKey(Cow<'static, str>);
 
 impl DriverKey {
-    /// Longest key, in bytes.
+    /// Greatest length of a key, in bytes.
     pub const LENGTH_MAX: usize = 128;
 
     /// Key from the text `key`, for constants.

@@ -28,7 +28,7 @@ pub enum Isa {
     Avx2,
     /// NEON: vectors of 16 bytes.
     Neon,
-    /// Instructions of the compile target, without fused multiplication.
+    /// Instructions of the compile target, without fused multiply-add.
     Portable,
 }
 
@@ -87,7 +87,7 @@ impl Isa {
             .collect()
     }
 
-    /// Instruction set named by the environment variable `TACEVA_ISA`. Without a valid name, the supported set with the widest vectors.
+    /// Instruction set named by the environment variable `TACEVA_ISA`. Without a valid name, returns the supported set with the widest vectors.
     ///
     /// The variable is read once per process. A program that must reject an invalid name calls [`requested`](Isa::requested).
     pub fn detect() -> Isa {
@@ -130,7 +130,7 @@ impl FromStr for Isa {
     }
 }
 
-/// Error in the choice of an instruction set.
+/// Error in choosing an instruction set by name.
 ///
 /// ```
 /// use taceva_core::{Isa, IsaError};

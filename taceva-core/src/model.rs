@@ -1,4 +1,4 @@
-//! Interface of models. Fitting an [`Estimator`] returns a [`Regressor`]; only a regressor can predict.
+//! Interfaces of models. An [`Estimator`] is fitted to samples, and the resulting [`Regressor`] predicts.
 
 mod error;
 mod features;
@@ -11,7 +11,7 @@ pub use training::{Targets, TrainingSet};
 use crate::channel::{Channel, Channels};
 use crate::progress::Progress;
 
-/// A model with its settings before the fit.
+/// A model before the fit, with its settings.
 ///
 /// ```
 /// use taceva_core::{
@@ -217,7 +217,7 @@ pub struct Saved<'a> {
 }
 
 impl<'a> Saved<'a> {
-    /// The `bytes` of a model that predicts `channels` from features of `shape`.
+    /// A saved model from its `bytes`. The model predicts `channels` from features of `shape`.
     pub const fn new(bytes: &'a [u8], channels: &'a Channels, shape: FeatureShape) -> Saved<'a> {
         Saved {
             bytes,

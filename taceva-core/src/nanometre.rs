@@ -33,7 +33,7 @@ impl Nanometre {
         (nanometres.abs() <= GREATEST as f64).then_some(Nanometre(nanometres as i64))
     }
 
-    /// Length in mm, correctly rounded to binary64 up to 2⁵³ nm.
+    /// Length in mm, correctly rounded for lengths up to 2⁵³ nm.
     pub fn to_millimetres(self) -> f64 {
         self.to_f64() / PER_MILLIMETRE
     }

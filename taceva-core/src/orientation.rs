@@ -21,7 +21,7 @@ pub struct Orientation {
     w: f64,
 }
 
-/// Greatest deviation of a quaternion's norm from 1. Files may state quaternions with few decimals.
+/// Greatest accepted deviation of a quaternion's norm from 1. The tolerance allows for quaternions with few decimals in files.
 const NORM_TOLERANCE: f64 = 0.01;
 
 impl Orientation {

@@ -13,11 +13,11 @@ use crate::display::display;
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum Limit {
-    /// The greatest indentation depth.
+    /// Limit of the indentation depth.
     Depth,
-    /// The greatest normal force.
+    /// Limit of the normal force.
     NormalForce,
-    /// The greatest shear force.
+    /// Limit of the shear force.
     ShearForce,
 }
 
@@ -42,7 +42,7 @@ impl Limit {
 
 display!(Limit, name);
 
-/// Outcome of a press.
+/// Result of a press: completed, ended at a limit, or without contact.
 ///
 /// ```
 /// use taceva_core::{Limit, PressOutcome};

@@ -26,7 +26,7 @@ pub fn contained<T>(run: impl FnOnce() -> T) -> Result<T, String> {
     outcome
 }
 
-/// Returns the value of `run`, or the message of its panic. The panic hook of the program prints the panic first.
+/// Returns the value of `run`, or the message of its panic. The panic hook of the program is called first.
 pub fn caught<T>(run: impl FnOnce() -> T) -> Result<T, String> {
     panic::catch_unwind(AssertUnwindSafe(run)).map_err(|payload| {
         let message = match payload.downcast_ref::<&str>() {

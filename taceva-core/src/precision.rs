@@ -1,4 +1,4 @@
-//! Lossy conversions of an `f64`: to `f32`, to an index and to a count.
+//! Conversions of an `f64` that may round: to `f32`, to an index and to a count.
 
 /// Rounds to the nearest `f32`, the storage format of features, signals and weights.
 ///

@@ -45,7 +45,7 @@ impl<'a> Targets<'a> {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct TrainingSet<'a> {
-    /// The features of each sample.
+    /// Features of each sample.
     pub features: &'a Features,
     /// Target values of each sample.
     pub targets: Targets<'a>,

@@ -47,8 +47,8 @@ impl Draws {
         unit(self.bits(counter))
     }
 
-    /// Standard normal number by the method of Box and Muller, from the uniform numbers of the counters 2 · `counter` and 2 · `counter` + 1.
-    /// Logarithm and cosine depend on the platform, so the last digits may differ between machines.
+    /// Normal number with mean 0 and variance 1 (Box and Muller), from the uniform numbers of counters 2 · `counter` and 2 · `counter` + 1. Logarithm
+    /// and cosine depend on the platform, so the last digits may differ between machines.
     #[must_use]
     pub fn normal(self, counter: u64) -> f64 {
         let (first, second) = (self.unit(2 * counter), self.unit(2 * counter + 1));

@@ -2,7 +2,7 @@
 
 use super::{STEP, mix, unit};
 
-/// Generator of random numbers SplitMix64. Each seed gives one sequence, the same on every machine.
+/// SplitMix64, a generator of random numbers. Each seed gives one sequence, the same on every machine.
 ///
 /// ```
 /// use taceva_core::random::SplitMix64;

@@ -4,7 +4,7 @@ use super::{DescriptorError, Factory};
 
 /// A driver linked into the program, stored as the function that creates its factory.
 ///
-/// With the feature `inventory`, `submit_builtin!` registers the driver, and `Registry::builtin` returns all registered drivers.
+/// With the feature `inventory`, the macro `submit_builtin!` registers the driver, and `Registry::builtin` returns all registered drivers.
 ///
 /// ```
 /// use taceva_core::{

@@ -28,7 +28,7 @@ where
     }
 }
 
-/// Adds a linked-in driver. The arguments are the device trait and a function that creates the factory.
+/// Registers a driver that is linked into the program. The arguments are the device trait and a function that creates the factory.
 ///
 /// `submit_builtin!(dyn Sensor, || Ok(Box::new(Replay::new()?)));`
 #[macro_export]

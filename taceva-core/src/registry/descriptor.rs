@@ -28,7 +28,7 @@ use crate::id::DriverKey;
 pub struct DescriptorSpec {
     /// Key by which users select the driver.
     pub key: DriverKey,
-    /// Name of the device as users know it.
+    /// Common name of the device, such as a product name.
     pub title: String,
     /// Origin of the readings: a real device, a simulation or a recording.
     pub source: DriverSource,
@@ -223,7 +223,7 @@ impl Descriptor {
         &self.spec.key
     }
 
-    /// Name of the device as users know it.
+    /// Common name of the device, such as a product name.
     pub fn title(&self) -> &str {
         &self.spec.title
     }

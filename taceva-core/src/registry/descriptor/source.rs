@@ -2,8 +2,8 @@
 
 use crate::display::display;
 
-/// Origin of the readings of a driver. Each output that is computed from the readings names their origin. This enum gets no further variant in a
-/// compatible version, because programs must treat each origin explicitly.
+/// Origin of the readings of a driver. Each output computed from the readings names this origin. This enum gets no further variant in a compatible
+/// version, because programs must handle each origin.
 ///
 /// ```
 /// use taceva_core::DriverSource;

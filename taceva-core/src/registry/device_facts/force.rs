@@ -15,7 +15,7 @@ use crate::quantity::{Hertz, Newton};
 pub struct ForceFacts {
     /// Components of force and torque that the transducer measures.
     pub axes: Axes,
-    /// Readings per second.
+    /// Number of readings per second.
     pub rate: Option<Hertz>,
     /// Greatest magnitude that the transducer can measure, for each force component.
     pub force_max: Option<Newton>,
