@@ -1,11 +1,11 @@
-//! Factory of one kind of model: found by key, configured by settings, and able to load its saved models.
+//! Factories of models. A factory fits one kind of model and loads the models that it saved.
 
 use crate::args::{ArgSpec, Args};
 use crate::id::DriverKey;
 use crate::model::{ModelError, Saved, SavedRegressor, TrainingSet};
 use crate::progress::Progress;
 
-/// Estimator with a key, declared settings and a format for its fitted models.
+/// Fits and loads models of one kind. Users select the factory by its key.
 ///
 /// ```
 /// use taceva_core::{
@@ -81,7 +81,7 @@ pub trait EstimatorFactory: Send + Sync {
     /// Key by which users select the estimator: the id of the plugin, `/`, and a word.
     fn key(&self) -> &DriverKey;
 
-    /// Title of a few words.
+    /// Title of the estimator in lists, a few words.
     fn title(&self) -> &str;
 
     /// Declarations of the estimator's settings.
@@ -98,10 +98,10 @@ pub trait EstimatorFactory: Send + Sync {
     /// Loads a saved model.
     ///
     /// # Errors
-    /// [`ModelError`] of kind `Protocol` for bytes that this estimator did not save, whether damaged or hostile.
+    /// [`ModelError`] of kind `Protocol` for damaged or hostile bytes, which this estimator did not save.
     fn load(&self, saved: &Saved<'_>) -> Result<Box<dyn SavedRegressor>, ModelError>;
 
-    /// Digest of the estimator's library, `sha256:` and 64 hexadecimal digits; `None` if the estimator is linked into the program.
+    /// Digest of the plugin library with the estimator: `sha256:` and 64 hexadecimal digits. `None` if the estimator is linked into the program.
     ///
     /// # Errors
     /// [`ModelError`] if the library cannot be read.
@@ -109,10 +109,11 @@ pub trait EstimatorFactory: Send + Sync {
         Ok(None)
     }
 
-    /// Accepts or rejects a model fitted by the build `fitted_by`. An implementation may warn about a different build.
+    /// Accepts or rejects a saved model; `fitted_by` is the digest of the library that fitted it. An implementation may only warn about another
+    /// digest.
     ///
     /// # Errors
-    /// [`ModelError`] of kind `PermissionDenied` if only the build that fitted the model may load it.
+    /// [`ModelError`] of kind `PermissionDenied` if only the library that fitted the model may load it.
     fn admit(&self, fitted_by: Option<&str>) -> Result<(), ModelError> {
         let _ = fitted_by;
         Ok(())
@@ -135,16 +136,16 @@ pub trait EstimatorFactory: Send + Sync {
 pub struct FitRequest<'a> {
     /// Settings, checked against the declarations of the estimator.
     pub settings: &'a Args,
-    /// Samples for the fit.
+    /// Samples on which the model is fitted.
     pub training: &'a TrainingSet<'a>,
-    /// Samples for the choice of settings; `None` if there are none.
+    /// Samples on which settings are chosen; `None` if the request has none.
     pub validation: Option<&'a TrainingSet<'a>>,
     /// Receives the progress of the fit and can cancel the fit.
     pub progress: &'a dyn Progress,
 }
 
 impl<'a> FitRequest<'a> {
-    /// A fit on `training` without validation samples.
+    /// Request for a fit on `training` without validation samples.
     pub fn new(
         settings: &'a Args,
         training: &'a TrainingSet<'a>,
@@ -158,7 +159,7 @@ impl<'a> FitRequest<'a> {
         }
     }
 
-    /// The same fit with samples for the choice of settings.
+    /// Adds samples on which settings are chosen.
     #[must_use]
     pub fn with_validation(
         self,

@@ -1,4 +1,4 @@
-//! Parts of a sample, as data. Unread parts are neither decoded nor stored.
+//! Names of the parts of a sample. A reader decodes and stores only the parts that its caller names.
 
 use std::ops::BitOr;
 
@@ -24,7 +24,7 @@ pub enum Field {
     Point,
     /// Depth level within a contact point.
     DepthStep,
-    /// Number of the repeat.
+    /// Number of the press among repeated presses of one contact point.
     Repeat,
     /// Branch of the press: load or unload.
     Phase,
@@ -32,19 +32,19 @@ pub enum Field {
     Scene,
     /// Individual unit of the sensor model.
     UnitId,
-    /// Time of the sample.
+    /// Time at which the sample was observed.
     Stamp,
     /// Relief of the touched grating: lines or dots.
     Kind,
-    /// Spacing of the touched grating.
+    /// Spacing of the touched grating, mm.
     Spacing,
-    /// Spacing that a model predicts.
+    /// Grating spacing that a model predicts, mm.
     PredictedSpacing,
-    /// Mean brightness of the picture.
+    /// Mean luma of the picture's pixels.
     Intensity,
     /// Digest of the picture's bytes. Equal digests show equal pictures without decoding.
     FrameDigest,
-    /// Numbers of the taxels, for a sensor with taxels.
+    /// Readings of the taxels, for a sensor with taxels instead of a camera.
     Signals,
 }
 
@@ -69,7 +69,7 @@ impl Field {
         Field::Signals,
     ];
 
-    /// Name in plans and messages.
+    /// Name of the field in plans and messages.
     pub const fn name(self) -> &'static str {
         match self {
             Field::Frame => "frame",
@@ -107,22 +107,22 @@ pub struct FieldSet {
 }
 
 impl FieldSet {
-    /// No field.
+    /// The set without any field.
     pub const EMPTY: FieldSet = FieldSet { bits: 0 };
-    /// Fields that scores of predictions need: truth, prediction and contact point.
+    /// Fields needed to score predictions: truth, prediction and contact point.
     pub const PAIRS: FieldSet = FieldSet::EMPTY
         .with(Field::Truth)
         .with(Field::Prediction)
         .with(Field::Point);
 
-    /// This set and `field`.
+    /// Returns this set with `field` added.
     pub const fn with(self, field: Field) -> FieldSet {
         FieldSet {
             bits: self.bits | 1 << field as u8,
         }
     }
 
-    /// This set without `field`.
+    /// Returns this set without `field`.
     pub const fn without(self, field: Field) -> FieldSet {
         FieldSet {
             bits: self.bits & !(1 << field as u8),
@@ -134,7 +134,7 @@ impl FieldSet {
         self.bits & 1 << field as u8 != 0
     }
 
-    /// Fields in declaration order.
+    /// Fields of the set, in the order in which [`Field`] declares them.
     pub fn iter(self) -> impl Iterator<Item = Field> {
         Field::ALL
             .into_iter()

@@ -1,4 +1,4 @@
-//! Sensing surface of a sensor. The surface is declared and never derived from samples, so bins do not move with the samples.
+//! Sensing surface of a sensor. The surface is declared and not derived from samples, so the bins of positions do not depend on the samples.
 
 use std::fmt;
 
@@ -19,7 +19,7 @@ pub struct Footprint {
     depth_max: Option<Nanometre>,
 }
 
-/// The outline of a sensing surface.
+/// Shape and size of a sensing surface in top view.
 ///
 /// ```
 /// use taceva_core::{Footprint, Nanometre, Outline};
@@ -38,9 +38,9 @@ pub enum Outline {
     },
     /// A rectangle with sides along x and y.
     Rectangle {
-        /// Half the width, along x.
+        /// Half the length along x.
         half_x: Nanometre,
-        /// Half the height, along y.
+        /// Half the length along y.
         half_y: Nanometre,
     },
 }
@@ -49,13 +49,13 @@ impl Footprint {
     /// Disc with the radius `radius_mm` and the greatest indentation `depth_max_mm`.
     ///
     /// # Errors
-    /// [`FootprintError`] for a length that is not positive, or beyond 10 m.
+    /// [`FootprintError`] for a length that is not above 0, or is above 10 m.
     pub fn disc(radius_mm: f64, depth_max_mm: Option<f64>) -> Result<Footprint, FootprintError> {
         let radius = length("radius_mm", radius_mm)?;
         Footprint::new(Outline::Disc { radius }, depth_max_mm)
     }
 
-    /// Rectangle from −half to +half along x and y.
+    /// Rectangle centred on the sensor's axis. `half_x_mm` and `half_y_mm` are half its side lengths.
     ///
     /// # Errors
     /// The errors of [`disc`](Footprint::disc).
@@ -76,7 +76,7 @@ impl Footprint {
         Ok(Footprint { outline, depth_max })
     }
 
-    /// The outline.
+    /// Shape and size of the surface in top view.
     pub fn outline(&self) -> Outline {
         self.outline
     }
@@ -86,7 +86,7 @@ impl Footprint {
         self.depth_max
     }
 
-    /// Half-width and half-height of the smallest enclosing rectangle.
+    /// Half the width and half the height of the smallest rectangle around the outline.
     pub fn half_extent(&self) -> [Nanometre; 2] {
         match self.outline {
             Outline::Disc { radius } => [radius, radius],
@@ -94,7 +94,7 @@ impl Footprint {
         }
     }
 
-    /// Greatest distance of a surface point from the centre: the radius, or half the diagonal rounded up to a nanometre.
+    /// Greatest distance of a surface point from the centre: the radius of a disc, or half a rectangle's diagonal rounded up to a nanometre.
     pub fn reach(&self) -> Nanometre {
         match self.outline {
             Outline::Disc { radius } => radius,
@@ -107,7 +107,7 @@ impl Footprint {
         }
     }
 
-    /// True if the point is on the surface, edge included.
+    /// True if the point (`x`, `y`) is on the sensing surface or its edge.
     pub fn contains(&self, x: Nanometre, y: Nanometre) -> bool {
         match self.outline {
             Outline::Disc { radius } => square(x) + square(y) <= square(radius),
@@ -127,7 +127,7 @@ fn length(name: &'static str, millimetres: f64) -> Result<Nanometre, FootprintEr
     length.ok_or(FootprintError { name, millimetres })
 }
 
-/// A length of a footprint that is not above 0, or beyond 10 m.
+/// Error for a length of a footprint that is not above 0, or is above 10 m.
 ///
 /// ```
 /// use taceva_core::Footprint;

@@ -1,4 +1,4 @@
-//! Pictures of the gel, owned or in the caller's buffer.
+//! Pictures of the gel. A [`Frame`] owns its pixels, and a [`FrameMut`] borrows a buffer.
 
 mod info;
 
@@ -25,30 +25,30 @@ impl Frame {
     /// Frame with the pixels `bytes`.
     ///
     /// # Shapes
-    /// `bytes`: height × width × samples × bytes per sample.
+    /// `bytes`: height × width × samples per pixel × bytes per sample.
     /// # Errors
-    /// [`FrameError`] if the number of bytes is wrong.
+    /// [`FrameError`] if `bytes` has another length.
     pub fn new(info: FrameInfo, bytes: Vec<u8>) -> Result<Frame, FrameError> {
         check_len(info, bytes.len())?;
         Ok(Frame { info, bytes })
     }
 
-    /// Size and format.
+    /// Size and pixel format of the frame.
     pub fn info(&self) -> FrameInfo {
         self.info
     }
 
-    /// The pixels.
+    /// Pixels, row by row from the top, without padding.
     pub fn bytes(&self) -> &[u8] {
         &self.bytes
     }
 
-    /// The pixels, without a copy.
+    /// Returns the pixel buffer without copying the pixels.
     pub fn into_bytes(self) -> Vec<u8> {
         self.bytes
     }
 
-    /// All samples of the frame in order; 8-bit samples are widened to 16 bits.
+    /// All samples row by row, the samples of a pixel side by side; 8-bit samples are widened to 16 bits.
     pub fn samples(&self) -> impl Iterator<Item = u16> + '_ {
         let width = self.info.format.bytes_per_sample();
         self.bytes.chunks_exact(width).map(|sample| match *sample {
@@ -59,13 +59,13 @@ impl Frame {
     }
 }
 
-/// Steps of a 16-bit sample per step of an 8-bit sample.
+/// Intensity steps of 16 bits per intensity step of 8 bits.
 const STEPS_OF_16_BIT: u64 = 256;
 
 impl Frame {
-    /// Mean luma, (299 R + 587 G + 114 B) / 1000 of each pixel, on the 8-bit scale from 0 to 255; 0 for a frame without pixels.
+    /// Mean luma of all pixels, on the 8-bit scale from 0 to 255; 0 for a frame without pixels. The luma is (299 R + 587 G + 114 B) / 1000.
     ///
-    /// The sum is exact, and the quotient is rounded once, for up to 35 · 10⁹ 8-bit pixels or 137 · 10⁶ 16-bit pixels.
+    /// The mean is rounded once, from an exact sum, for up to 35 · 10⁹ 8-bit pixels or 137 · 10⁶ 16-bit pixels.
     ///
     /// ```
     /// use taceva_core::{Frame, FrameInfo, PixelFormat};
@@ -104,7 +104,7 @@ impl Frame {
     }
 }
 
-/// Sum of 299 R + 587 G + 114 B over samples in the order red, green, blue.
+/// Sum of 299 R + 587 G + 114 B over all pixels. `samples` are the red, green and blue sample of each pixel in turn.
 fn weighted(samples: impl Iterator<Item = u64>) -> u64 {
     let mut sums = [0; 3];
     for (position, sample) in samples.enumerate() {
@@ -140,12 +140,12 @@ impl<'a> FrameMut<'a> {
         Ok(FrameMut { info, bytes })
     }
 
-    /// Size and format.
+    /// Size and pixel format of the frame.
     pub fn info(&self) -> FrameInfo {
         self.info
     }
 
-    /// Writable pixels.
+    /// Writable pixels, row by row from the top, without padding.
     pub fn bytes_mut(&mut self) -> &mut [u8] {
         self.bytes
     }
@@ -162,7 +162,7 @@ fn check_len(info: FrameInfo, found: usize) -> Result<(), FrameError> {
     }
 }
 
-/// A buffer whose length differs from the length of its frame.
+/// Error for a buffer whose length differs from the length of its frame.
 ///
 /// ```
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};

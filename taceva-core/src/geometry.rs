@@ -1,10 +1,11 @@
-//! Points, rotations and poses in the sensor's frame.
+//! Points, rotations and poses in the coordinates of the sensor.
 
 use std::fmt;
 
 use crate::quantity::{Degree, Millimetre};
 
-/// A point in the sensor's frame: x and y along the gel, z into the gel. A plain value, which gets no further fields.
+/// A point in the coordinates of the sensor: x and y along the gel's surface, z into the gel. This struct gets no further fields: there are three
+/// axes.
 ///
 /// ```
 /// use taceva_core::{Millimetre, Point};
@@ -14,15 +15,15 @@ use crate::quantity::{Degree, Millimetre};
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Point {
-    /// Coordinate along the gel.
+    /// Coordinate along the gel's surface.
     pub x: Millimetre,
-    /// Coordinate along the gel, perpendicular to x.
+    /// Coordinate along the gel's surface, perpendicular to x.
     pub y: Millimetre,
     /// Coordinate into the gel: the indentation depth.
     pub z: Millimetre,
 }
 
-/// Rotation about the sensor's axes, applied about x, then y, then z. A plain value, which gets no further fields.
+/// Rotation about the axes of the sensor: first about x, then y, then z. This struct gets no further fields: three angles determine a rotation.
 ///
 /// ```
 /// use taceva_core::{Degree, Rotation};
@@ -32,15 +33,15 @@ pub struct Point {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rotation {
-    /// Angle about x.
+    /// Angle about the sensor's x axis.
     pub x: Degree,
-    /// Angle about y.
+    /// Angle about the sensor's y axis.
     pub y: Degree,
-    /// Angle about z.
+    /// Angle about the sensor's z axis.
     pub z: Degree,
 }
 
-/// Pose of the tool in the sensor's frame. A plain value, which gets no further fields.
+/// Pose of the robot's tool in the coordinates of the sensor. This struct gets no further fields, because position and rotation determine a pose.
 ///
 /// ```
 /// use taceva_core::{Millimetre, Point, Pose};
@@ -51,9 +52,9 @@ pub struct Rotation {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose {
-    /// Position of the tip.
+    /// Position of the tool's tip.
     pub position: Point,
-    /// Rotation of the tool.
+    /// Rotation of the tool about the axes of the sensor.
     pub rotation: Rotation,
 }
 
@@ -78,10 +79,10 @@ impl fmt::Display for Pose {
 }
 
 impl Pose {
-    /// Nearest pose with whole nanometres and whole 10⁻⁹ degrees.
+    /// Rounds lengths to whole nanometres and angles to multiples of 10⁻⁹ degrees.
     ///
-    /// Poses cross the plugin interface in metres and quaternions. The grid is finer than any robot's resolution, and the conversion keeps a
-    /// pose on the grid unchanged. A driver that reports such poses returns the same numbers built in or as a plugin.
+    /// Poses cross the plugin interface in metres and quaternions. This conversion returns a rounded pose unchanged, so a driver that rounds reports
+    /// the same numbers built in or as a plugin. The rounding is finer than the resolution of any robot.
     ///
     /// ```
     /// use taceva_core::{Millimetre, Pose};
@@ -109,7 +110,7 @@ impl Pose {
     }
 }
 
-/// Multiple of 1 / `per_unit` nearest to `value`. Values of 2⁵² steps or more, NaN and infinity are returned unchanged.
+/// Multiple of 1 / `per_unit` nearest to `value`. NaN, infinity and values of at least 2⁵² / `per_unit` are returned unchanged.
 pub(crate) fn nearest(value: f64, per_unit: f64) -> f64 {
     let steps = value * per_unit;
     if steps.abs() < 2_f64.powi(52) {

@@ -1,9 +1,8 @@
-//! Gratings for tests of spatial resolution.
+//! Gratings pressed on the gel to test spatial resolution.
 
 use crate::display::display;
 
-/// Relief of a grating, with one period in each direction of repetition. This enum gets no further variant in a compatible version: the metrics of
-/// spatial resolution are defined for these two kinds.
+/// Shape of a grating. This enum gets no further variant in a compatible version: the metrics of spatial resolution are defined for these two kinds.
 ///
 /// ```
 /// use taceva_core::GratingKind;
@@ -20,10 +19,10 @@ pub enum GratingKind {
 }
 
 impl GratingKind {
-    /// Both kinds.
+    /// Both kinds of grating.
     pub const ALL: [GratingKind; 2] = [GratingKind::Line, GratingKind::Dot];
 
-    /// Name in tables.
+    /// Name of the kind in tables.
     pub const fn name(self) -> &'static str {
         match self {
             GratingKind::Line => "line",
@@ -31,7 +30,7 @@ impl GratingKind {
         }
     }
 
-    /// Kind with the name `name`; `None` for another text.
+    /// Returns the kind called `name`; `None` if no kind has this name.
     pub fn from_name(name: &str) -> Option<GratingKind> {
         GratingKind::ALL
             .into_iter()

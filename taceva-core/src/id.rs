@@ -1,12 +1,12 @@
-//! Names of drivers, identical on the command line, in scenes and in the registry.
+//! Keys of drivers. Command line, scenes and registry use the same keys.
 
 use std::borrow::{Borrow, Cow};
 use std::fmt;
 use std::str::FromStr;
 
-/// The name of a driver: words joined by `/`, such as `sim/gelsight` or `org.example.digit/digit`.
+/// Name of a driver: words joined by `/`, such as `sim/gelsight` or `org.example.digit/digit`.
 ///
-/// A word is made of lower-case letters, digits, `-`, `_` and `.`, and begins with a letter or a digit.
+/// A word contains lower-case letters, digits, `-`, `_` and `.`, and begins with a letter or a digit.
 ///
 /// ```
 /// use taceva_core::DriverKey;
@@ -18,10 +18,10 @@ use std::str::FromStr;
 pub struct DriverKey(Cow<'static, str>);
 
 impl DriverKey {
-    /// Longest key, in bytes.
+    /// Greatest length of a key, in bytes.
     pub const LENGTH_MAX: usize = 128;
 
-    /// Key from a constant.
+    /// Key from the text `key`, for constants.
     ///
     /// # Panics
     /// If `key` is not a valid key. In a constant, the compiler reports this as an error.
@@ -84,7 +84,7 @@ impl fmt::Display for DriverKey {
     }
 }
 
-/// Text that is not a driver key.
+/// Error for text that is not a driver key.
 ///
 /// ```
 /// use taceva_core::DriverKey;

@@ -1,4 +1,4 @@
-//! Input of a model: the picture of a camera, or the numbers of taxels.
+//! Input of a model: the picture of a camera, or the readings of taxels.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use crate::field::Field;
 use crate::frame::{Frame, FrameInfo};
 use crate::signals::{SignalInfo, Signals};
 
-/// Input of a model from one sample, borrowed.
+/// Borrowed input of a model from one sample.
 ///
 /// ```
 /// use taceva_core::{Field, Input, SignalInfo, Signals, Unit};
@@ -19,14 +19,14 @@ use crate::signals::{SignalInfo, Signals};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Input<'a> {
-    /// A picture.
+    /// Picture of the gel.
     Frame(&'a Frame),
-    /// Numbers.
+    /// Readings of the taxels.
     Signals(&'a Signals),
 }
 
 impl Input<'_> {
-    /// Kind and size of the input.
+    /// Kind of the input, picture or readings of taxels, with its size.
     pub fn info(&self) -> InputInfo {
         match self {
             Input::Frame(frame) => InputInfo::Frame(frame.info()),
@@ -47,9 +47,9 @@ impl<'a> From<&'a Signals> for Input<'a> {
     }
 }
 
-/// Kind and size of a model's input.
+/// Size of a model's input, which is a picture or the readings of taxels.
 ///
-/// Files store one key, `frame` or `signals`, with the size of that kind.
+/// A file stores this value under the key `frame` or the key `signals`.
 ///
 /// ```
 /// use taceva_core::{FrameInfo, InputInfo, PixelFormat};
@@ -61,14 +61,14 @@ impl<'a> From<&'a Signals> for Input<'a> {
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 #[non_exhaustive]
 pub enum InputInfo {
-    /// A picture.
+    /// Size and pixel format of a picture.
     Frame(FrameInfo),
-    /// Numbers.
+    /// Size and unit of the readings of taxels.
     Signals(SignalInfo),
 }
 
 impl InputInfo {
-    /// Field of a sample that contains the input.
+    /// Part of a sample that holds this input: the frame or the signals.
     pub const fn field(&self) -> Field {
         match self {
             InputInfo::Frame(_) => Field::Frame,

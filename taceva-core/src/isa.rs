@@ -11,7 +11,7 @@ const VARIABLE: &str = "TACEVA_ISA";
 
 /// An instruction set with specialised kernels.
 ///
-/// Each kernel documents whether its results depend on the choice. NEON kernels are compiled for 64-bit ARM only.
+/// The documentation of each kernel states if its results depend on the instruction set. NEON kernels are compiled for 64-bit ARM only.
 ///
 /// ```
 /// use taceva_core::Isa;
@@ -28,12 +28,12 @@ pub enum Isa {
     Avx2,
     /// NEON: vectors of 16 bytes.
     Neon,
-    /// Instructions of the compile target, without fused multiplication.
+    /// Instructions of the compile target, without fused multiply-add.
     Portable,
 }
 
 impl Isa {
-    /// Every instruction set, the widest vectors first.
+    /// Every instruction set, from the widest vectors to the narrowest.
     pub const ALL: [Isa; 4] = [Isa::Avx512, Isa::Avx2, Isa::Neon, Isa::Portable];
 
     /// Name in `TACEVA_ISA` and in reports.
@@ -57,7 +57,7 @@ impl Isa {
         })
     }
 
-    /// True if this machine has every processor feature that a kernel of this set may use.
+    /// True if this machine has all processor features that kernels for this instruction set may use.
     pub fn is_available(self) -> bool {
         match self {
             #[cfg(target_arch = "x86_64")]
@@ -79,7 +79,7 @@ impl Isa {
         }
     }
 
-    /// Instruction sets of this machine, widest vectors first.
+    /// Instruction sets that this machine supports, from the widest vectors to the narrowest.
     pub fn available() -> Vec<Isa> {
         Isa::ALL
             .into_iter()
@@ -87,10 +87,9 @@ impl Isa {
             .collect()
     }
 
-    /// Instruction set named by `TACEVA_ISA`, or else the available set with the widest vectors.
+    /// Instruction set named by the environment variable `TACEVA_ISA`. Without a valid name, returns the supported set with the widest vectors.
     ///
-    /// The variable is read once per process, and an invalid value is ignored. A program that must reject an invalid value calls
-    /// [`requested`](Isa::requested).
+    /// The variable is read once per process. A program that must reject an invalid name calls [`requested`](Isa::requested).
     pub fn detect() -> Isa {
         static DETECTED: OnceLock<Isa> = OnceLock::new();
         *DETECTED.get_or_init(|| match Isa::requested() {
@@ -131,7 +130,7 @@ impl FromStr for Isa {
     }
 }
 
-/// Reason for rejecting the choice of an instruction set.
+/// Error in choosing an instruction set by name.
 ///
 /// ```
 /// use taceva_core::{Isa, IsaError};
@@ -140,14 +139,14 @@ impl FromStr for Isa {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum IsaError {
-    /// The name is unknown.
+    /// No instruction set has the given name.
     Unknown {
-        /// The name as given.
+        /// The given name.
         name: String,
     },
     /// This machine lacks the instruction set.
     Unavailable {
-        /// Requested instruction set.
+        /// The requested instruction set.
         isa: Isa,
     },
 }

@@ -2,7 +2,7 @@
 
 /// Greatest magnitude of a sample's value, 2¹⁰²¹ ≈ 2.247 · 10³⁰⁷. Sums, differences and means of two values up to this limit stay finite.
 ///
-/// Readers reject a greater number and name its place. A metric can only count such a number as invalid.
+/// Readers reject a greater number and report its position. A metric can only count such a number as invalid.
 pub const MAGNITUDE_MAX: f64 = f64::from_bits(0x7fc0_0000_0000_0000);
 
 /// True if `value` may be recorded and scored: finite, with a magnitude of at most [`MAGNITUDE_MAX`].

@@ -1,4 +1,4 @@
-//! Interface of models. Fitting an [`Estimator`] returns a [`Regressor`]; only a regressor can predict.
+//! Interfaces of models. An [`Estimator`] is fitted to samples, and the resulting [`Regressor`] predicts.
 
 mod error;
 mod features;
@@ -11,7 +11,7 @@ pub use training::{Targets, TrainingSet};
 use crate::channel::{Channel, Channels};
 use crate::progress::Progress;
 
-/// A model with its settings before the fit.
+/// A model before the fit, with its settings.
 ///
 /// ```
 /// use taceva_core::{
@@ -69,13 +69,13 @@ use crate::progress::Progress;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Estimator: Send + Sync {
-    /// Name by which users select the estimator: `ridge`, or the key of a plugin's estimator.
+    /// Name by which users select the estimator, such as `ridge`, or the key of a plugin's estimator.
     fn name(&self) -> &str;
 
-    /// Fits a model to `training`. If `validation` is given, its samples choose the open settings.
+    /// Fits a model to `training`. An estimator may choose its free settings by the error on `validation`.
     ///
     /// # Errors
-    /// [`ModelError`] if the two sets do not match, the samples determine no model, or `progress` was cancelled.
+    /// [`ModelError`] if the two sets differ in channels or feature shape, the samples cannot determine a model, or `progress` was cancelled.
     fn fit(
         &self,
         training: &TrainingSet<'_>,
@@ -118,10 +118,10 @@ pub trait Estimator: Send + Sync {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Regressor: Send + Sync {
-    /// Predicted channels.
+    /// Channels that the model predicts.
     fn channels(&self) -> &Channels;
 
-    /// Required shape of features.
+    /// Shape of the features that the model takes.
     fn shape(&self) -> FeatureShape;
 
     /// Predicts all channels for every sample of `features`.
@@ -133,7 +133,7 @@ pub trait Regressor: Send + Sync {
     fn predict(&self, features: &Features, into: &mut [f64]) -> Result<(), ModelError>;
 }
 
-/// First prediction that is not finite, in words: sample, channel and value. `predictions` has one row of all `channels` per sample.
+/// Describes the first prediction that is not finite by sample, channel and value. `predictions` has one row per sample and one column per channel.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels, not_finite};
@@ -188,7 +188,7 @@ pub fn not_finite(channels: &Channels, predictions: &[f64]) -> Option<String> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait SavedRegressor: Regressor {
-    /// Model as bytes from which its estimator can load the model on every machine.
+    /// Serialises the model. The estimator that fitted the model can load these bytes on every machine.
     ///
     /// # Errors
     /// [`ModelError`] if the model cannot be serialised.
@@ -210,14 +210,14 @@ pub trait SavedRegressor: Regressor {
 pub struct Saved<'a> {
     /// Bytes from [`SavedRegressor::save`].
     pub bytes: &'a [u8],
-    /// Predicted channels.
+    /// Channels that the model predicts.
     pub channels: &'a Channels,
-    /// Required shape of features.
+    /// Shape of the features that the model takes.
     pub shape: FeatureShape,
 }
 
 impl<'a> Saved<'a> {
-    /// The `bytes` of a model that predicts `channels` from features of `shape`.
+    /// A saved model from its `bytes`. The model predicts `channels` from features of `shape`.
     pub const fn new(bytes: &'a [u8], channels: &'a Channels, shape: FeatureShape) -> Saved<'a> {
         Saved {
             bytes,

@@ -1,9 +1,9 @@
-//! Lengths for comparisons: whole nanometres, because `0.40 − 0.35 ≤ 0.05` is false in binary64.
+//! Lengths in whole nanometres, which compare exactly. In floating point, `0.40 − 0.35 ≤ 0.05` is false.
 
 use std::fmt;
 use std::str::FromStr;
 
-/// A length in whole nanometres. This type gets no further field: the number is the whole value.
+/// A length in whole nanometres. This type gets no further field: one number determines a length.
 ///
 /// ```
 /// use taceva_core::Nanometre;
@@ -21,9 +21,9 @@ const PER_MILLIMETRE: f64 = 1e6;
 const GREATEST: i64 = 1 << 53;
 
 impl Nanometre {
-    /// The nanometre nearest to `millimetres`, ties to even; `None` for NaN or a length above 2⁵³ nm.
+    /// Length nearest to `millimetres`, ties to even; `None` for NaN or a magnitude above 2⁵³ nm.
     ///
-    /// The multiplication rounds, so a tie is a tie of the rounded product. Decimals of up to six places are exact.
+    /// The product with 10⁶ is rounded to binary64 first. Decimals of up to six places give the exact length.
     pub fn from_millimetres(millimetres: f64) -> Option<Nanometre> {
         let nanometres = (millimetres * PER_MILLIMETRE).round_ties_even();
         #[expect(
@@ -33,12 +33,12 @@ impl Nanometre {
         (nanometres.abs() <= GREATEST as f64).then_some(Nanometre(nanometres as i64))
     }
 
-    /// Length in mm, rounded once.
+    /// Length in mm, correctly rounded for lengths up to 2⁵³ nm.
     pub fn to_millimetres(self) -> f64 {
         self.to_f64() / PER_MILLIMETRE
     }
 
-    /// Number of nanometres, exact up to 2⁵³.
+    /// Number of nanometres as a floating-point number, exact up to 2⁵³.
     pub fn to_f64(self) -> f64 {
         self.0 as f64
     }
@@ -47,7 +47,7 @@ impl Nanometre {
 impl FromStr for Nanometre {
     type Err = NanometreError;
 
-    /// Parses millimetres as decimal text, `0.35` or `-1.2e-3`; parts of a nanometre are rounded half to even, exactly.
+    /// Parses a decimal number of millimetres, such as `0.35` or `-1.2e-3`. The exact value is rounded to the nearest nanometre, ties to even.
     fn from_str(text: &str) -> Result<Nanometre, NanometreError> {
         parse(text).ok_or_else(|| NanometreError {
             text: text.to_owned(),
@@ -105,7 +105,7 @@ impl fmt::Display for Nanometre {
     }
 }
 
-/// Text that is not a length in mm.
+/// Error for text that is not a length in mm.
 ///
 /// ```
 /// use taceva_core::Nanometre;

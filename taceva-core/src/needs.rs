@@ -1,8 +1,8 @@
-//! Requirements of a consumer on the stream of samples.
+//! Requirements of a metric on the samples that it reads.
 
 use crate::field::FieldSet;
 
-/// Requirements of a metric or another consumer on a stream. Requirements are plain data, so planning opens neither devices nor files.
+/// Fields, channels and number of samples that a metric requires. Planning reads these requirements before a device or a file is opened.
 ///
 /// ```
 /// use taceva_core::{FieldSet, Needs};
@@ -12,16 +12,16 @@ use crate::field::FieldSet;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Needs {
-    /// Required fields of each sample.
+    /// Fields that each sample must have.
     pub fields: FieldSet,
-    /// Required channels of each sample.
+    /// Names of the channels that each sample must have.
     pub channels: &'static [&'static str],
-    /// Least number of samples. With fewer samples the value is undefined.
+    /// Minimum number of samples. With fewer samples, the value of the metric is undefined.
     pub least_samples: u64,
 }
 
 impl Needs {
-    /// Requires only `fields`, with any channels and any number of samples.
+    /// Requires only `fields`, without required channels or a minimum number of samples.
     pub const fn new(fields: FieldSet) -> Needs {
         Needs {
             fields,
@@ -30,13 +30,13 @@ impl Needs {
         }
     }
 
-    /// The same requirements with required channels.
+    /// Sets the names of the required channels.
     #[must_use]
     pub const fn with_channels(self, channels: &'static [&'static str]) -> Needs {
         Needs { channels, ..self }
     }
 
-    /// The same requirements with the least number of samples.
+    /// Sets the minimum number of samples.
     #[must_use]
     pub const fn with_least_samples(self, least_samples: u64) -> Needs {
         Needs {

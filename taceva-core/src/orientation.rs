@@ -1,11 +1,11 @@
-//! Orientation of a body in space.
+//! Orientation of a rigid body in space.
 
 use crate::quantity::Degree;
 
-/// Orientation of a body, as a unit quaternion. A quaternion and its negative are the same orientation.
+/// Orientation of a rigid body, stored as a unit quaternion. A quaternion and its negative represent the same orientation.
 ///
 /// # Units
-/// Rotation vectors are in radians.
+/// Rotation vectors are in radians: the direction is the axis, and the length is the angle.
 ///
 /// ```
 /// use taceva_core::Orientation;
@@ -21,11 +21,11 @@ pub struct Orientation {
     w: f64,
 }
 
-/// Greatest deviation of a quaternion's norm from 1. Files may state quaternions with few decimals.
+/// Greatest accepted deviation of a quaternion's norm from 1. The tolerance allows for quaternions with few decimals in files.
 const NORM_TOLERANCE: f64 = 0.01;
 
 impl Orientation {
-    /// Orientation of a rotation vector in radians; the zero vector is the identity.
+    /// Orientation from a rotation vector, whose direction is the axis and whose length is the angle in radians.
     pub fn of_vector(vector: [f64; 3]) -> Orientation {
         let angle = norm(&vector);
         let factor = match angle > 0.0 {
@@ -37,19 +37,19 @@ impl Orientation {
         Orientation { x, y, z, w }
     }
 
-    /// Orientation of the quaternion x, y, z, w; `None` unless its norm is 1 within 0.01.
+    /// Orientation from the quaternion `[x, y, z, w]`; `None` if its norm differs from 1 by more than 0.01.
     pub fn of_quaternion(quaternion: [f64; 4]) -> Option<Orientation> {
         let length = norm(&quaternion);
         let [x, y, z, w] = quaternion.map(|part| part / length);
         ((length - 1.0).abs() <= NORM_TOLERANCE).then_some(Orientation { x, y, z, w })
     }
 
-    /// Quaternion x, y, z, w.
+    /// Unit quaternion `[x, y, z, w]`.
     pub fn quaternion(self) -> [f64; 4] {
         [self.x, self.y, self.z, self.w]
     }
 
-    /// Rotation vector in radians, at most half a turn long.
+    /// Rotation vector in radians. Its length, the angle, is at most π.
     pub fn vector(self) -> [f64; 3] {
         let sign = if self.w < 0.0 { -1.0 } else { 1.0 };
         let axis = [self.x, self.y, self.z];
@@ -61,7 +61,7 @@ impl Orientation {
         axis.map(|part| part * sign * factor)
     }
 
-    /// Angle of the turn from one orientation to the other, from 0 to 180 degrees.
+    /// Angle of the rotation from this orientation to `other`, from 0 to 180 degrees.
     pub fn angle_to(self, other: Orientation) -> Degree {
         let other = other.beside(self).quaternion();
         let own = self.quaternion();
@@ -70,7 +70,7 @@ impl Orientation {
         Degree((4.0 * norm(&apart).atan2(norm(&along))).to_degrees())
     }
 
-    /// Orientation on the shortest path to `other`, at the fraction `share` of the path, from 0 to 1.
+    /// Interpolates along the shortest rotation: this orientation for `share` 0, `other` for `share` 1.
     pub fn toward(self, other: Orientation, share: f64) -> Orientation {
         let other = other.beside(self);
         let half = self.angle_to(other).0.to_radians() / 2.0;
@@ -87,7 +87,7 @@ impl Orientation {
         Orientation { x, y, z, w }
     }
 
-    /// Components of a world-frame vector in the frame of the body.
+    /// Converts a vector from world coordinates to coordinates of the body.
     pub fn into_body(self, [a, b, c]: [f64; 3]) -> [f64; 3] {
         let Orientation { x, y, z, w } = self;
         [
@@ -103,7 +103,7 @@ impl Orientation {
         ]
     }
 
-    /// The same orientation, with the sign of the quaternion chosen nearer to `other`.
+    /// Returns this orientation, with its quaternion negated if that brings the quaternion closer to the quaternion of `other`.
     fn beside(self, other: Orientation) -> Orientation {
         let pairs = self.quaternion().into_iter().zip(other.quaternion());
         let product: f64 = pairs.map(|(a, b)| a * b).sum();

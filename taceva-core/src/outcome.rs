@@ -1,8 +1,8 @@
-//! Outcomes of a press, and the limits of the gel that end a press.
+//! Outcomes of a press on the gel. A press ends early at a limit of depth or force.
 
 use crate::display::display;
 
-/// Limit of the gel that ends a press.
+/// Limit of depth or force at which a press ends, to protect the gel.
 ///
 /// ```
 /// use taceva_core::Limit;
@@ -13,19 +13,19 @@ use crate::display::display;
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum Limit {
-    /// The greatest indentation depth.
+    /// Limit of the indentation depth.
     Depth,
-    /// The greatest normal force.
+    /// Limit of the normal force.
     NormalForce,
-    /// The greatest shear force.
+    /// Limit of the shear force.
     ShearForce,
 }
 
 impl Limit {
-    /// Every limit.
+    /// Every limit of a press.
     pub const ALL: [Limit; 3] = [Limit::Depth, Limit::NormalForce, Limit::ShearForce];
 
-    /// Name in tables.
+    /// Name of the limit in tables.
     pub const fn name(self) -> &'static str {
         match self {
             Limit::Depth => "depth",
@@ -34,7 +34,7 @@ impl Limit {
         }
     }
 
-    /// Limit with the name `name`; `None` for another text.
+    /// Returns the limit called `name`; `None` if no limit has this name.
     pub fn from_name(name: &str) -> Option<Limit> {
         Limit::ALL.into_iter().find(|limit| limit.name() == name)
     }
@@ -42,7 +42,7 @@ impl Limit {
 
 display!(Limit, name);
 
-/// Outcome of a press.
+/// Result of a press: completed, ended at a limit, or without contact.
 ///
 /// ```
 /// use taceva_core::{Limit, PressOutcome};
@@ -54,10 +54,10 @@ display!(Limit, name);
 #[cfg_attr(feature = "serde", serde(into = "&'static str", try_from = "String"))]
 #[non_exhaustive]
 pub enum PressOutcome {
-    /// The tip visited every waypoint.
+    /// The tip of the robot's tool visited every planned waypoint.
     Complete,
-    /// A limit ended the approach. The sample of the unreached waypoint is taken where the tip rests within the limits. Deeper waypoints are
-    /// skipped, and the waypoints of the retreat are visited. A limit reached during the search for the gel leaves no sample.
+    /// A limit ended the approach. The next waypoint is sampled where the tip rests, within the limits, and deeper waypoints are skipped. The retreat
+    /// visits its waypoints. No sample is taken if the limit was reached during the search for the gel.
     Limited(Limit),
     /// The search for the gel ended without contact.
     NoContact,
@@ -69,7 +69,7 @@ impl PressOutcome {
         matches!(self, PressOutcome::Limited(_))
     }
 
-    /// Every outcome.
+    /// Every outcome of a press.
     pub const ALL: [PressOutcome; 5] = [
         PressOutcome::Complete,
         PressOutcome::Limited(Limit::Depth),
@@ -78,7 +78,7 @@ impl PressOutcome {
         PressOutcome::NoContact,
     ];
 
-    /// Name in files.
+    /// Name of the outcome in files.
     pub const fn name(self) -> &'static str {
         match self {
             PressOutcome::Complete => "complete",
@@ -89,7 +89,7 @@ impl PressOutcome {
         }
     }
 
-    /// Outcome with the name `name`; `None` for another text.
+    /// Returns the outcome called `name`; `None` if no outcome has this name.
     pub fn from_name(name: &str) -> Option<PressOutcome> {
         let mut outcomes = PressOutcome::ALL.into_iter();
         outcomes.find(|outcome| outcome.name() == name)

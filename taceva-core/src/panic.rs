@@ -5,11 +5,11 @@ use std::panic::{self, AssertUnwindSafe};
 use std::sync::Once;
 
 thread_local! {
-    /// Nesting depth of [`contained`] on this thread.
+    /// Number of calls of [`contained`] in progress on this thread.
     static DEPTH: Cell<usize> = const { Cell::new(0) };
 }
 
-/// Returns the value of `run`, or the message of its panic without printing it. Panics outside `run` still call the program's hook.
+/// Returns the value of `run`, or the message of its panic. The panic is not printed. Panics outside `run` still call the panic hook of the program.
 pub fn contained<T>(run: impl FnOnce() -> T) -> Result<T, String> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
@@ -26,7 +26,7 @@ pub fn contained<T>(run: impl FnOnce() -> T) -> Result<T, String> {
     outcome
 }
 
-/// Returns the value of `run`, or the message of its panic, which the program's panic hook has printed.
+/// Returns the value of `run`, or the message of its panic. The panic hook of the program is called first.
 pub fn caught<T>(run: impl FnOnce() -> T) -> Result<T, String> {
     panic::catch_unwind(AssertUnwindSafe(run)).map_err(|payload| {
         let message = match payload.downcast_ref::<&str>() {
@@ -60,7 +60,7 @@ mod tests {
         assert_eq!(caught(|| 5), Ok(5));
     }
 
-    /// A payload whose drop panics again.
+    /// A panic payload that panics when it is dropped.
     struct Bomb;
 
     impl Drop for Bomb {

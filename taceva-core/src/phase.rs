@@ -1,8 +1,9 @@
-//! Branch of a press on which a sample was taken.
+//! Direction of a press at the time of a sample.
 
 use crate::display::display;
 
-/// Branch of a press. This enum gets no further variant: an indenter moves in, moves out, or rests, and samples at rest have no branch.
+/// Direction of a press: loading or unloading. This enum gets no further variant: an indenter moves in, moves out or rests, and a sample at rest has
+/// no phase.
 ///
 /// ```
 /// use taceva_core::Phase;
@@ -19,7 +20,7 @@ pub enum Phase {
 }
 
 impl Phase {
-    /// Name in tables.
+    /// Name of the phase in tables.
     pub const fn name(self) -> &'static str {
         match self {
             Phase::Load => "load",
@@ -27,7 +28,7 @@ impl Phase {
         }
     }
 
-    /// Phase with the name `name`; `None` for another text.
+    /// Returns the phase called `name`; `None` if no phase has this name.
     pub fn from_name(name: &str) -> Option<Phase> {
         [Phase::Load, Phase::Unload]
             .into_iter()

@@ -1,6 +1,6 @@
-//! Conversions of a number that round: to single precision, an index or a count.
+//! Conversions of an `f64` that may round: to `f32`, to an index and to a count.
 
-/// Nearest number of single precision, the storage format of features, signals and weights.
+/// Rounds to the nearest `f32`, the storage format of features, signals and weights.
 ///
 /// ```
 /// use taceva_core::single;
@@ -13,7 +13,7 @@ pub const fn single(value: f64) -> f32 {
     value as f32
 }
 
-/// Whole part as an index or a size. NaN and negative numbers give 0; a number above the greatest index gives the greatest index.
+/// Integer part of `value` as an index or a size. NaN and negative values give 0; values above `usize::MAX` give `usize::MAX`.
 ///
 /// ```
 /// use taceva_core::whole_size;
@@ -29,7 +29,7 @@ pub const fn whole_size(value: f64) -> usize {
     value as usize
 }
 
-/// Whole part as a count. NaN and negative numbers give 0; a number above the greatest count gives the greatest count.
+/// Integer part of `value` as a count. NaN and negative values give 0; values above `u64::MAX` give `u64::MAX`.
 ///
 /// ```
 /// use taceva_core::whole_count;

@@ -1,12 +1,12 @@
-//! External text for display. Names, ids and paths may contain characters that control a terminal.
+//! Escapes text from files, devices and users for display, because it may contain characters that control a terminal.
 
 use std::ffi::OsStr;
 use std::fmt;
 
-/// An external name for display: one line, with control characters and invisible characters escaped.
+/// A name or a path on one line for display, with control characters and invisible characters escaped.
 ///
-/// Messages of every crate print ids, names of files and models, map keys and other external text through this type. Values that programs
-/// read (JSON, CSV, journals, headers) keep the text unchanged.
+/// Messages print ids, file names and other text from outside the program through this type. Machine-readable output (JSON, CSV, journals, headers)
+/// contains such text without these escapes.
 ///
 /// ```
 /// use taceva_core::shown;
@@ -16,7 +16,7 @@ use std::fmt;
 #[derive(Clone, Copy, Debug)]
 pub struct Shown<'a>(&'a OsStr);
 
-/// Escapes `text`, a name or a path, for a message.
+/// Escapes the name or path `text` for a message.
 pub fn shown<T: AsRef<OsStr> + ?Sized>(text: &T) -> Shown<'_> {
     Shown(text.as_ref())
 }
@@ -35,9 +35,9 @@ impl fmt::Display for Shown<'_> {
     }
 }
 
-/// Escapes text of several lines. Line feeds and tabs are unchanged.
+/// Escapes control characters and invisible characters in text of several lines, except line feeds and tabs.
 ///
-/// Last check before a terminal, for text that other code composed.
+/// Programs call this function last, on composed text that goes to a terminal.
 pub fn shown_lines(text: &str) -> String {
     let mut written = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -57,7 +57,7 @@ fn push_shown(written: &mut String, letter: char) {
     }
 }
 
-/// Text for a paragraph or a table cell of Markdown: one line without markup.
+/// Escapes `text` for a paragraph or a table cell of Markdown. The result is one line without markup.
 ///
 /// ```
 /// assert_eq!(taceva_core::markdown("a|b\n<i>*x*"), "a\\|b &lt;i>\\*x\\*");
@@ -79,8 +79,8 @@ pub fn markdown(text: &str) -> String {
     escaped
 }
 
-/// True for invisible characters and for characters that control the display: control characters (C0 and C1), direction marks and line
-/// separators. Also true for zero-width characters, with which two different names look the same.
+/// True for characters that control the display or are invisible: control characters (C0 and C1), direction marks, line separators and zero-width
+/// characters. With these characters, two different names can look the same.
 pub fn is_obeyed(letter: char) -> bool {
     letter.is_control()
         || matches!(letter,

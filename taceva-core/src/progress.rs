@@ -1,6 +1,6 @@
-//! Progress reports and cancellation of long operations.
+//! Progress reports and cancellation of operations that take long.
 
-/// Receives the progress of a long operation, to show, log or ignore the reports.
+/// Receiver of the progress of an operation that takes long. The receiver may also cancel the operation.
 ///
 /// ```
 /// use std::sync::atomic::{AtomicU64, Ordering};
@@ -27,7 +27,7 @@
 /// assert_eq!(progress.0.into_inner(), 12);
 /// ```
 pub trait Progress: Send + Sync {
-    /// Begins a stage with its name and its number of steps; `None` if unknown. Does nothing by default.
+    /// Begins the stage called `stage` with a number of steps; `None` if unknown. Does nothing by default.
     fn begin(&self, stage: &str, steps: Option<u64>) {
         let _ = (stage, steps);
     }
@@ -37,13 +37,13 @@ pub trait Progress: Send + Sync {
     }
     /// Ends the current stage. Does nothing by default.
     fn end(&self) {}
-    /// True if the operation should stop at the next safe point.
+    /// True if the operation should stop as soon as it safely can.
     fn is_cancelled(&self) -> bool;
-    /// True after a second request to stop. A moving robot then halts at once, without retracting first.
+    /// True after a second request to stop. An operation that moves a robot then halts the robot at once, without retracting first.
     fn is_insisted(&self) -> bool {
         false
     }
-    /// Shows `words` at once, even while a question is open, and never waits. Does nothing by default.
+    /// Shows `words` without delay, even while the user is asked a question. The call does not block. Does nothing by default.
     fn remark(&self, words: &str) {
         let _ = words;
     }

@@ -1,4 +1,4 @@
-//! Numbers with their unit in the type, for public signatures in which a bare `f64` would be ambiguous. These types get no further field.
+//! Numbers with the unit in the type, for public signatures. These types get no further field, because the number is the only content.
 
 use std::fmt;
 

@@ -1,10 +1,10 @@
-//! Random numbers that are the same on every machine: words of the generator SplitMix64, computed by counter or drawn in sequence.
+//! Random numbers that are the same on every machine, from the generator SplitMix64.
 //!
-//! A number computed by counter depends on a key and a counter, never on earlier draws. Use [`Draws`] if work may be resumed, reordered
-//! or divided among threads. [`SplitMix64`] draws the same words in sequence. [`mix`] makes keys: combine a seed with a purpose, a press
-//! or a sample by exclusive or, and mix after each.
+//! [`SplitMix64`] draws numbers in sequence. [`Draws`] computes each number from a key and a counter, without earlier draws. Use [`Draws`] if work
+//! may be resumed, reordered or divided among threads. [`mix`] makes keys from a seed: for each purpose, press or sample, combine its number with the
+//! key by exclusive or, and call `mix`.
 //!
-//! These numbers are not fit for cryptography.
+//! Do not use these numbers for cryptography.
 //!
 //! ```
 //! use taceva_core::random::{Draws, SplitMix64, mix};
@@ -28,7 +28,7 @@ pub use draws::Draws;
 pub use fnv::{FNV_OFFSET, fnv_1a, fnv_1a_after};
 pub use sequence::SplitMix64;
 
-/// Increment of the state of SplitMix64 per step: 2⁶⁴ over the golden ratio, odd.
+/// Increment of the state of SplitMix64 per number: 2⁶⁴ divided by the golden ratio, rounded to an odd number.
 ///
 /// ```
 /// use taceva_core::random::{STEP, finalise, mix};
@@ -36,7 +36,7 @@ pub use sequence::SplitMix64;
 /// ```
 pub const STEP: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// Finaliser of SplitMix64: a one-to-one map of words in which each bit of the result depends on each bit of `state`. 0 maps to 0.
+/// Output function of SplitMix64: a bijection of 64-bit numbers. Each bit of the result depends on each bit of `state`. 0 maps to 0.
 ///
 /// ```
 /// use taceva_core::random::finalise;
@@ -51,7 +51,7 @@ pub const fn finalise(state: u64) -> u64 {
     mixed ^ (mixed >> 31)
 }
 
-/// First word of SplitMix64 after the state `word`.
+/// First output of SplitMix64 with the seed `word`.
 ///
 /// ```
 /// use taceva_core::random::mix;
@@ -63,7 +63,7 @@ pub const fn mix(word: u64) -> u64 {
     finalise(word.wrapping_add(STEP))
 }
 
-/// Number u with 0 ≤ u < 1 from 64 random bits: a multiple of 2⁻⁵³, all multiples equally likely.
+/// Converts 64 random bits to a number from 0 (inclusive) to 1 (exclusive). All multiples of 2⁻⁵³ in this range are equally likely.
 ///
 /// ```
 /// use taceva_core::random::unit;
@@ -77,7 +77,8 @@ pub const fn unit(bits: u64) -> f64 {
     (bits >> 11) as f64 * UNIT_STEP
 }
 
-/// Number with 0 < u < 1 from 64 random bits: an odd multiple of 2⁻⁵⁴, rounded to 53 bits. A result of 1 becomes the next lower number.
+/// Converts 64 random bits to a number between 0 and 1, both exclusive. The number is an odd multiple of 2⁻⁵⁴, rounded to `f64`; a result rounded to
+/// 1 is replaced with 1 − 2⁻⁵³.
 ///
 /// ```
 /// use taceva_core::random::open_unit;
@@ -95,10 +96,10 @@ pub const fn open_unit(bits: u64) -> f64 {
     }
 }
 
-/// Whole number below `bound` from 64 random bits, by one multiplication; 0 if `bound` is 0.
+/// Converts 64 random bits to an integer below `bound` by one multiplication; 0 if `bound` is 0.
 ///
-/// Probabilities differ from 1 / `bound` by at most 2⁻⁶⁴. Use this function for a draw by counter, which cannot be repeated. Use
-/// [`SplitMix64::below`] if all numbers must be equally likely.
+/// The probability of each integer differs from 1 / `bound` by at most 2⁻⁶⁴. [`SplitMix64::below`] gives equal probabilities, but may need several
+/// draws. Use this function if exactly one draw is available.
 ///
 /// ```
 /// use taceva_core::random::scaled;
@@ -112,7 +113,7 @@ pub const fn scaled(bits: u64, bound: u64) -> u64 {
     ((bits as u128 * bound as u128) >> 64) as u64
 }
 
-/// Spacing of the numbers of `unit`, 2⁻⁵³.
+/// Distance between neighbouring results of `unit`, 2⁻⁵³.
 const UNIT_STEP: f64 = 1.0 / 9_007_199_254_740_992.0;
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Registries: drivers by name.
+//! Registries, which find drivers by key.
 
 mod builtin;
 #[cfg(feature = "inventory")]
@@ -28,7 +28,7 @@ use crate::driver::Device;
 use crate::id::DriverKey;
 use crate::suggestion::nearest;
 
-/// Drivers of one kind, sorted by key. Callers pass the registry on; no global registry exists.
+/// Drivers for one kind of device, sorted by key. Functions take the registry as an argument, because no global registry exists.
 ///
 /// ```
 /// use taceva_core::{Registry, Sensor};
@@ -48,10 +48,10 @@ impl<D: Device + ?Sized> Registry<D> {
         }
     }
 
-    /// Adds a driver.
+    /// Adds the driver `factory`.
     ///
     /// # Errors
-    /// [`RegistryError`] if another driver has the key, or the driver describes a device of another kind. The registry is then unchanged.
+    /// [`RegistryError`] if another driver has the same key, or the driver is for another kind of device. The registry is then unchanged.
     pub fn add(&mut self, factory: Box<dyn Factory<D>>) -> Result<(), RegistryError> {
         let descriptor = factory.descriptor();
         if descriptor.kind() != D::KIND {
@@ -74,10 +74,10 @@ impl<D: Device + ?Sized> Registry<D> {
         }
     }
 
-    /// The driver called `key`.
+    /// Returns the driver with the key `key`.
     ///
     /// # Errors
-    /// [`RegistryError::Unknown`] with the nearest key and all known keys.
+    /// [`RegistryError::Unknown`] with all known keys, and with the nearest key if one is similar.
     pub fn get(&self, key: &str) -> Result<&dyn Factory<D>, RegistryError> {
         self.factories
             .get(key)
@@ -90,12 +90,12 @@ impl<D: Device + ?Sized> Registry<D> {
             })
     }
 
-    /// Keys in order.
+    /// Keys of all drivers, sorted.
     pub fn keys(&self) -> impl Iterator<Item = &DriverKey> {
         self.factories.keys()
     }
 
-    /// Drivers in the order of their keys.
+    /// Factories of all drivers, sorted by key.
     pub fn iter(&self) -> impl Iterator<Item = &dyn Factory<D>> {
         self.factories.values().map(AsRef::as_ref)
     }
@@ -105,7 +105,7 @@ impl<D: Device + ?Sized> Registry<D> {
         self.factories.len()
     }
 
-    /// True if there are no drivers.
+    /// True if the registry has no drivers.
     pub fn is_empty(&self) -> bool {
         self.factories.is_empty()
     }

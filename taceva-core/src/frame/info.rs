@@ -24,7 +24,7 @@ pub enum PixelFormat {
 }
 
 impl PixelFormat {
-    /// Numbers per pixel: 1 for gray, 3 for RGB.
+    /// Samples per pixel: 1 for gray, 3 for RGB.
     pub const fn samples(self) -> usize {
         match self {
             PixelFormat::Gray8 | PixelFormat::Gray16 => 1,
@@ -32,7 +32,7 @@ impl PixelFormat {
         }
     }
 
-    /// Bytes per number: 1 or 2.
+    /// Bytes per sample: 1 or 2.
     pub const fn bytes_per_sample(self) -> usize {
         match self {
             PixelFormat::Gray8 | PixelFormat::Rgb8 => 1,
@@ -48,7 +48,7 @@ impl PixelFormat {
         }
     }
 
-    /// The same colours with 8-bit samples.
+    /// The format with the same colours and 8-bit samples.
     ///
     /// ```
     /// use taceva_core::PixelFormat;
@@ -72,7 +72,7 @@ impl PixelFormat {
     }
 }
 
-/// The size and the pixel format of a frame. A plain value, which gets no further fields.
+/// The size and the pixel format of a frame. This struct gets no further fields, because size and format determine the layout of the bytes.
 ///
 /// ```
 /// use taceva_core::{FrameInfo, PixelFormat};
@@ -82,9 +82,9 @@ impl PixelFormat {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FrameInfo {
-    /// Pixels per row.
+    /// Number of pixels per row.
     pub width: u32,
-    /// Rows.
+    /// Number of rows.
     pub height: u32,
     /// Storage format of one pixel.
     pub format: PixelFormat,

@@ -1,11 +1,11 @@
-//! Errors of fitting or using a model.
+//! Errors of fitting, saving, loading and applying a model.
 
 use std::error::Error;
 use std::fmt;
 
 use crate::error::ErrorKind;
 
-/// Error of fitting or using a model.
+/// Error of fitting, saving, loading or applying a model.
 ///
 /// ```
 /// use taceva_core::{ErrorKind, ModelError};
@@ -29,14 +29,14 @@ impl ModelError {
         }
     }
 
-    /// The same error with its cause.
+    /// Adds the error `source` as the cause.
     #[must_use]
     pub fn because(mut self, source: impl Into<Box<dyn Error + Send + Sync>>) -> ModelError {
         self.source = Some(source.into());
         self
     }
 
-    /// Kind of failure.
+    /// Category of the error.
     pub fn kind(&self) -> ErrorKind {
         self.kind
     }

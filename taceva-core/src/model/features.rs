@@ -1,4 +1,4 @@
-//! Features of samples: the numeric input of a model.
+//! Numbers that a model takes as input, computed from samples.
 
 use std::fmt;
 use std::ops::Range;
@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::ModelError;
 use crate::error::ErrorKind;
 
-/// Shape of one sample's features: a small picture, or a flat list. A plain value, which gets no further fields.
+/// Shape of the features of one sample: a small picture or a flat list. This struct gets no further fields: a picture has three dimensions.
 ///
 /// ```
 /// use taceva_core::FeatureShape;
@@ -17,11 +17,11 @@ use crate::error::ErrorKind;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct FeatureShape {
-    /// Number of rows; 1 for a flat list.
+    /// Rows of the picture; 1 for a flat list.
     pub height: usize,
-    /// Number of columns; the length of a flat list.
+    /// Columns of the picture; the length of a flat list.
     pub width: usize,
-    /// Numbers per pixel: 1 for gray and for a flat list, 3 for RGB.
+    /// Values per pixel: 1 for gray and for a flat list, 3 for RGB.
     pub depth: usize,
 }
 
@@ -41,18 +41,18 @@ impl FeatureShape {
         }
     }
 
-    /// Numbers per sample.
+    /// Number of feature values per sample.
     pub const fn len(&self) -> usize {
         self.height * self.width * self.depth
     }
 
-    /// True if a sample has no numbers.
+    /// True if the shape has no feature values.
     pub const fn is_empty(&self) -> bool {
         self.len() == 0
     }
 }
 
-/// Features of a set of samples, sample by sample. Copies and consecutive selections share the memory.
+/// Features of a list of samples. Clones, and selections of consecutive samples, share one buffer.
 ///
 /// # Shapes
 /// `[samples, height, width, depth]`, contiguous.
@@ -67,7 +67,7 @@ impl FeatureShape {
 pub struct Features {
     shape: FeatureShape,
     memory: Arc<Vec<f32>>,
-    /// Range of these values within the shared memory.
+    /// Range of the values of these samples in the shared buffer.
     place: Range<usize>,
 }
 
@@ -78,10 +78,10 @@ impl PartialEq for Features {
 }
 
 impl Features {
-    /// Features of `shape`. The number of samples follows from the number of values.
+    /// Creates features of `shape` from `values`, sample by sample. The number of values determines the number of samples.
     ///
     /// # Errors
-    /// [`ModelError`] if the number of values is not a multiple of the numbers per sample.
+    /// [`ModelError`] if the number of values is not a multiple of the feature values per sample.
     pub fn new(shape: FeatureShape, values: Vec<f32>) -> Result<Features, ModelError> {
         let whole = match shape.len() {
             0 => values.is_empty(),
@@ -106,7 +106,7 @@ impl Features {
         }
     }
 
-    /// The shape of one sample.
+    /// Shape of the features of one sample.
     pub fn shape(&self) -> FeatureShape {
         self.shape
     }
@@ -119,18 +119,18 @@ impl Features {
         }
     }
 
-    /// All values.
+    /// Feature values of all samples, sample by sample.
     pub fn values(&self) -> &[f32] {
         &self.memory[self.place.clone()]
     }
 
-    /// The values of one sample.
+    /// Feature values of the sample at `position`, counted from 0.
     pub fn sample(&self, position: usize) -> &[f32] {
         let length = self.shape.len();
         &self.values()[position * length..(position + 1) * length]
     }
 
-    /// Samples at `positions`, in that order. Consecutive positions need no copy.
+    /// Features of the samples at `positions`, in the order of `positions`. Consecutive positions are selected without a copy.
     ///
     /// # Panics
     /// If a position is out of range.
@@ -155,7 +155,7 @@ impl Features {
         Features::of(self.shape, values.collect())
     }
 
-    /// Concatenates these samples and the samples of `other`. Ranges adjacent in the same memory need no copy.
+    /// Appends the samples of `other`. Two neighbouring parts of one buffer are joined without a copy.
     ///
     /// ```
     /// use taceva_core::{FeatureShape, Features};

@@ -1,9 +1,9 @@
-//! Training data of a model.
+//! Training data of a model: features, target values and groups.
 
 use super::Features;
 use crate::channel::Channels;
 
-/// True values for a fit, sample by sample.
+/// True values that a model learns to predict, one row per sample.
 ///
 /// # Shapes
 /// `values`: `[samples, channels]`.
@@ -20,18 +20,18 @@ use crate::channel::Channels;
 pub struct Targets<'a> {
     /// Channel of each column.
     pub channels: &'a Channels,
-    /// Finite values, one row per sample.
+    /// Finite true values, one row per sample and one column per channel.
     pub values: &'a [f64],
 }
 
 impl<'a> Targets<'a> {
-    /// Targets with one value per channel, sample by sample. An estimator rejects `values` whose number does not match its samples.
+    /// Targets with one row of values per sample. An estimator rejects `values` if the number of rows differs from its number of samples.
     pub const fn new(channels: &'a Channels, values: &'a [f64]) -> Targets<'a> {
         Targets { channels, values }
     }
 }
 
-/// Samples for a fit or for the choice of settings.
+/// Samples on which a model is fitted, or on which its settings are chosen.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels, FeatureShape, Features, Targets, TrainingSet};
@@ -45,16 +45,16 @@ impl<'a> Targets<'a> {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct TrainingSet<'a> {
-    /// The features of each sample.
+    /// Features of each sample.
     pub features: &'a Features,
     /// Target values of each sample.
     pub targets: Targets<'a>,
-    /// Group of each sample, for settings chosen by leaving out one group at a time; `None` without groups.
+    /// Group of each sample, such as its contact point. Cross-validation leaves out whole groups; `None` without groups.
     pub groups: Option<&'a [u32]>,
 }
 
 impl<'a> TrainingSet<'a> {
-    /// Samples without groups.
+    /// Samples without groups for cross-validation.
     pub const fn new(features: &'a Features, targets: Targets<'a>) -> TrainingSet<'a> {
         TrainingSet {
             features,
@@ -63,7 +63,7 @@ impl<'a> TrainingSet<'a> {
         }
     }
 
-    /// The same samples with the group of each sample.
+    /// Sets the group of each sample for cross-validation.
     #[must_use]
     pub fn with_groups(self, groups: impl Into<Option<&'a [u32]>>) -> TrainingSet<'a> {
         TrainingSet {

@@ -1,10 +1,10 @@
-//! Random numbers by counter.
+//! Random numbers computed from a key and a counter, without earlier draws.
 
 use super::{STEP, finalise, mix, scaled, unit};
 
-/// Random numbers of one key, each computed from its counter.
+/// Source of random numbers, each computed from a key and a counter.
 ///
-/// Number `n` equals number n + 1 of [`SplitMix64`](super::SplitMix64) with the key as seed, and needs no earlier number.
+/// The bits of `counter` equal output `counter` + 1 of [`SplitMix64`](super::SplitMix64) with the key as seed. No earlier output is needed.
 ///
 /// ```
 /// use taceva_core::random::Draws;
@@ -19,36 +19,36 @@ pub struct Draws {
 }
 
 impl Draws {
-    /// Random numbers of `key`, a seed or a result of [`mix`].
+    /// Source with `key`, which is a seed or a result of [`mix`].
     #[inline]
     #[must_use]
     pub const fn new(key: u64) -> Draws {
         Draws { key }
     }
 
-    /// Draws for `purpose`, derived from this key.
+    /// Independent source for the purpose with the number `purpose`, derived from this key.
     #[inline]
     #[must_use]
     pub const fn of(self, purpose: u64) -> Draws {
         Draws::new(finalise(self.bits(purpose) ^ STEP))
     }
 
-    /// 64 random bits of `counter`.
+    /// 64 random bits, determined by the key and `counter`.
     #[inline]
     #[must_use]
     pub const fn bits(self, counter: u64) -> u64 {
         mix(self.key.wrapping_add(counter.wrapping_mul(STEP)))
     }
 
-    /// Number u with 0 ≤ u < 1, made by [`unit`](super::unit()).
+    /// Random number from 0 (inclusive) to 1 (exclusive), determined by the key and `counter`.
     #[inline]
     #[must_use]
     pub const fn unit(self, counter: u64) -> f64 {
         unit(self.bits(counter))
     }
 
-    /// Normal number of mean 0 and variance 1 (Box and Muller), from the numbers 2 · `counter` and 2 · `counter` + 1. Its last digits depend on the
-    /// platform's logarithm and cosine.
+    /// Normal number with mean 0 and variance 1 (Box and Muller), from the uniform numbers of counters 2 · `counter` and 2 · `counter` + 1. Logarithm
+    /// and cosine depend on the platform, so the last digits may differ between machines.
     #[must_use]
     pub fn normal(self, counter: u64) -> f64 {
         let (first, second) = (self.unit(2 * counter), self.unit(2 * counter + 1));
@@ -56,7 +56,7 @@ impl Draws {
         (-2.0 * (1.0 - first).ln()).sqrt() * (std::f64::consts::TAU * second).cos()
     }
 
-    /// The numbers 0..`count` in a random order (Fisher and Yates).
+    /// Random permutation of the integers from 0 to `count` − 1 (Fisher and Yates), determined by the key.
     #[must_use]
     pub fn order(self, count: usize) -> Vec<usize> {
         let mut order: Vec<usize> = (0..count).collect();

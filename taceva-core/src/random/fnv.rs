@@ -6,7 +6,7 @@
 /// ```
 pub const FNV_OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
 
-/// 64-bit FNV-1a hash of `bytes`, with the constants that Fowler, Noll and Vo published. Every version gives the same hash; it is not fit for cryptography.
+/// 64-bit FNV-1a hash of `bytes`, with the published constants of Fowler, Noll and Vo. Stable across versions, but not for cryptography.
 ///
 /// ```
 /// use taceva_core::random::fnv_1a;
@@ -17,7 +17,7 @@ pub fn fnv_1a(bytes: &[u8]) -> u64 {
     fnv_1a_after(FNV_OFFSET, bytes)
 }
 
-/// FNV-1a hash of `bytes` appended to a text with the hash `hash`.
+/// Continues the FNV-1a hash `hash` of earlier bytes with `bytes`.
 ///
 /// ```
 /// use taceva_core::random::{fnv_1a, fnv_1a_after};

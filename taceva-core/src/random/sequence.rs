@@ -2,7 +2,7 @@
 
 use super::{STEP, mix, unit};
 
-/// Generator SplitMix64: each seed gives one sequence, the same on every machine. The state is a counter.
+/// SplitMix64, a generator of random numbers. Each seed gives one sequence, the same on every machine.
 ///
 /// ```
 /// use taceva_core::random::SplitMix64;
@@ -18,7 +18,7 @@ pub struct SplitMix64 {
 }
 
 impl SplitMix64 {
-    /// The generator in the state `seed`.
+    /// Generator that starts in the state `seed`.
     #[inline]
     #[must_use]
     pub const fn new(seed: u64) -> SplitMix64 {
@@ -33,13 +33,13 @@ impl SplitMix64 {
         word
     }
 
-    /// Next number u with 0 ≤ u < 1, a multiple of 2⁻⁵³.
+    /// Next random number from 0 (inclusive) to 1 (exclusive), a multiple of 2⁻⁵³.
     #[inline]
     pub const fn unit(&mut self) -> f64 {
         unit(self.next_u64())
     }
 
-    /// Number below `bound`, all equally likely: words that would bias the result are discarded.
+    /// Random integer below `bound`. All integers are equally likely, because draws that would bias the result are discarded.
     ///
     /// # Panics
     /// If `bound` is zero.

@@ -2,9 +2,9 @@
 
 use super::{DescriptorError, Factory};
 
-/// A linked-in driver: the function that creates its factory.
+/// A driver linked into the program, stored as the function that creates its factory.
 ///
-/// With the feature `inventory`, `submit_builtin!` adds the driver to the list of the program, which `Registry::builtin` reads.
+/// With the feature `inventory`, the macro `submit_builtin!` registers the driver, and `Registry::builtin` returns all registered drivers.
 ///
 /// ```
 /// use taceva_core::{
@@ -38,15 +38,15 @@ pub struct Builtin<D: ?Sized + 'static> {
 }
 
 impl<D: ?Sized + 'static> Builtin<D> {
-    /// Driver whose factory `make` creates.
+    /// Driver whose factory is created by `make`.
     pub const fn new(make: fn() -> Result<Box<dyn Factory<D>>, DescriptorError>) -> Builtin<D> {
         Builtin { make }
     }
 
-    /// Factory of the driver.
+    /// Creates the factory of the driver.
     ///
     /// # Errors
-    /// [`DescriptorError`] if the description of the driver contradicts itself.
+    /// [`DescriptorError`] if entries in the description of the driver contradict each other.
     pub fn factory(&self) -> Result<Box<dyn Factory<D>>, DescriptorError> {
         (self.make)()
     }

@@ -13,12 +13,12 @@ impl<D: Device + ?Sized + 'static> Registry<D>
 where
     Builtin<D>: inventory::Collect,
 {
-    /// The linked-in drivers of this kind, sorted by key.
+    /// Registry of the linked-in drivers for this kind of device.
     ///
-    /// A crate that only `Cargo.toml` names is not linked, so its drivers are missing. `use the_crate as _;` links the crate.
+    /// Rust does not link a crate that is only named in `Cargo.toml`, so its drivers are missing. `use the_crate as _;` links the crate.
     ///
     /// # Errors
-    /// [`RegistryError`] if two drivers have one key, or the description of a driver contradicts itself.
+    /// [`RegistryError`] if two drivers have the same key, or entries in the description of a driver contradict each other.
     pub fn builtin() -> Result<Registry<D>, RegistryError> {
         let mut registry = Registry::empty();
         for builtin in inventory::iter::<Builtin<D>> {
@@ -28,7 +28,7 @@ where
     }
 }
 
-/// Adds a linked-in driver. The arguments are the device trait and a function that creates the factory.
+/// Registers a driver that is linked into the program. The arguments are the device trait and a function that creates the factory.
 ///
 /// `submit_builtin!(dyn Sensor, || Ok(Box::new(Replay::new()?)));`
 #[macro_export]

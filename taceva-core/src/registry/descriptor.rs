@@ -1,4 +1,4 @@
-//! Description of a driver before its device is opened.
+//! Description of a driver, readable without opening its device.
 
 mod source;
 
@@ -12,7 +12,7 @@ use crate::args::{ArgError, ArgSpec, Args};
 use crate::driver::DriverKind;
 use crate::id::DriverKey;
 
-/// Unchecked description of a driver.
+/// Description of a driver before [`check`](DescriptorSpec::check) has looked for contradictions.
 ///
 /// ```
 /// use taceva_core::{ArgSpec, ArgValue, DescriptorSpec, DriverKey, DriverSource, Facts, SensorFacts};
@@ -28,18 +28,18 @@ use crate::id::DriverKey;
 pub struct DescriptorSpec {
     /// Key by which users select the driver.
     pub key: DriverKey,
-    /// Usual name of the device.
+    /// Common name of the device, such as a product name.
     pub title: String,
-    /// Source of the device's readings: real, simulated or recorded.
+    /// Origin of the readings: a real device, a simulation or a recording.
     pub source: DriverSource,
-    /// Facts about the device.
+    /// Properties of the device, such as its rate and its limits.
     pub facts: Facts,
-    /// Arguments of the driver when its device is opened.
+    /// Arguments that the driver accepts when it opens the device.
     pub arguments: Vec<ArgSpec>,
 }
 
 impl DescriptorSpec {
-    /// Description of a driver without arguments.
+    /// Creates the description of a driver without arguments.
     pub fn new(
         key: DriverKey,
         title: impl Into<String>,
@@ -55,14 +55,14 @@ impl DescriptorSpec {
         }
     }
 
-    /// The same description with `arguments`.
+    /// Adds `arguments` to those that the driver accepts.
     #[must_use]
     pub fn arguments(mut self, arguments: impl IntoIterator<Item = ArgSpec>) -> DescriptorSpec {
         self.arguments.extend(arguments);
         self
     }
 
-    /// Checks the description for impossible or contradictory entries.
+    /// Checks that all entries are possible and do not contradict each other.
     ///
     /// # Errors
     /// [`DescriptorError`] for the first contradiction.
@@ -202,7 +202,7 @@ fn not_negative(named: &[(&str, Option<f64>)]) -> Option<String> {
     })
 }
 
-/// Checked description of a driver before its device is opened. Planning reads this description and opens nothing.
+/// Checked description of a driver. Planning reads the description and does not open the device.
 ///
 /// ```
 /// use taceva_core::{DescriptorSpec, DriverKey, DriverSource, Facts, RobotFacts};
@@ -223,27 +223,27 @@ impl Descriptor {
         &self.spec.key
     }
 
-    /// Usual name of the device.
+    /// Common name of the device, such as a product name.
     pub fn title(&self) -> &str {
         &self.spec.title
     }
 
-    /// The kind of the device.
+    /// Kind of device that the driver opens.
     pub fn kind(&self) -> DriverKind {
         self.spec.facts.kind()
     }
 
-    /// Source of the device's readings: real, simulated or recorded.
+    /// Origin of the readings: a real device, a simulation or a recording.
     pub fn source(&self) -> DriverSource {
         self.spec.source
     }
 
-    /// Facts about the device.
+    /// Properties of the device, such as its rate and its limits.
     pub fn facts(&self) -> &Facts {
         &self.spec.facts
     }
 
-    /// Facts of a sensor; `None` for another kind of device.
+    /// Properties of the sensor; `None` if the driver opens another kind of device.
     pub fn sensor(&self) -> Option<&SensorFacts> {
         match self.facts() {
             Facts::Sensor(facts) => Some(facts),
@@ -251,7 +251,7 @@ impl Descriptor {
         }
     }
 
-    /// Facts of a robot; `None` for another kind of device.
+    /// Properties of the robot; `None` if the driver opens another kind of device.
     pub fn robot(&self) -> Option<&RobotFacts> {
         match self.facts() {
             Facts::Robot(facts) => Some(facts),
@@ -259,7 +259,7 @@ impl Descriptor {
         }
     }
 
-    /// Facts of a force transducer; `None` for another kind of device.
+    /// Properties of the force transducer; `None` if the driver opens another kind of device.
     pub fn force(&self) -> Option<&ForceFacts> {
         match self.facts() {
             Facts::Force(facts) => Some(facts),
@@ -267,7 +267,7 @@ impl Descriptor {
         }
     }
 
-    /// Facts of a changer; `None` for another kind of device.
+    /// Properties of the changer; `None` if the driver opens another kind of device.
     pub fn changer(&self) -> Option<&ChangerFacts> {
         match self.facts() {
             Facts::Changer(facts) => Some(facts),
@@ -275,12 +275,12 @@ impl Descriptor {
         }
     }
 
-    /// Arguments of the driver when its device is opened.
+    /// Arguments that the driver accepts when it opens the device.
     pub fn arguments(&self) -> &[ArgSpec] {
         &self.spec.arguments
     }
 
-    /// Parses and checks arguments written as `text`.
+    /// Parses `text` as arguments of this driver and checks their values.
     ///
     /// # Errors
     /// The errors of [`Args::parse`].
@@ -288,13 +288,13 @@ impl Descriptor {
         Args::parse(self.arguments(), text)
     }
 
-    /// Copy of the description that can be changed and checked again.
+    /// Returns an editable copy of the description, which must be checked again.
     pub fn to_spec(&self) -> DescriptorSpec {
         self.spec.clone()
     }
 }
 
-/// A description that contradicts itself. This is a bug in the driver.
+/// Error for a driver whose description has contradictory entries. The cause is a bug in the driver.
 ///
 /// ```
 /// use taceva_core::{DescriptorSpec, DriverKey, DriverSource, Facts, LightingFacts};

@@ -1,4 +1,4 @@
-//! Facts about a device before it is connected.
+//! Properties of a device, known before it is opened.
 
 mod changer;
 mod force;
@@ -16,7 +16,7 @@ pub use robot::RobotFacts;
 pub use sensor::SensorFacts;
 pub use workspace::Workspace;
 
-/// Facts of a device, by kind. A fact that is `None` is unknown, and readers must not assume a value.
+/// Properties of a device that are known before it is opened. A property that is `None` is unknown, and programs must not assume a value.
 ///
 /// ```
 /// use taceva_core::{DriverKind, Facts, RobotFacts};
@@ -25,20 +25,20 @@ pub use workspace::Workspace;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Facts {
-    /// Facts of a sensor.
+    /// Properties of a sensor.
     Sensor(Box<SensorFacts>),
-    /// Facts of a robot.
+    /// Properties of a robot.
     Robot(RobotFacts),
-    /// Facts of a force transducer.
+    /// Properties of a force transducer.
     Force(ForceFacts),
-    /// Facts of a lighting device.
+    /// Properties of a lighting device.
     Lighting(LightingFacts),
-    /// Facts of a changer.
+    /// Properties of a changer, which brings specimens or sensor units into place.
     Changer(ChangerFacts),
 }
 
 impl Facts {
-    /// Kind of the device.
+    /// Kind of the device that has these properties.
     pub fn kind(&self) -> DriverKind {
         match self {
             Facts::Sensor(_) => DriverKind::Sensor,

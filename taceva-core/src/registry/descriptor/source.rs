@@ -1,9 +1,9 @@
-//! Source of the readings of a driver.
+//! Origin of the readings of a driver: a real device, a simulation or a recording.
 
 use crate::display::display;
 
-/// Source of the readings of a driver. Every output based on these readings names the source. This enum gets no further variant in a
-/// compatible version, because every reader must handle each source.
+/// Origin of the readings of a driver. Each output computed from the readings names this origin. This enum gets no further variant in a compatible
+/// version, because programs must handle each origin.
 ///
 /// ```
 /// use taceva_core::DriverSource;
@@ -15,14 +15,14 @@ use crate::display::display;
 pub enum DriverSource {
     /// A physical device.
     Real,
-    /// A model of a device.
+    /// A simulated device.
     Simulated,
     /// A recording of a device.
     Recorded,
 }
 
 impl DriverSource {
-    /// Name of the source in reports.
+    /// Name of the origin in reports.
     pub const fn name(self) -> &'static str {
         match self {
             DriverSource::Real => "real",

@@ -1,6 +1,6 @@
-//! Facts about a changer before it is opened.
+//! Properties of a changer, known before it is opened.
 
-/// Facts about a changer.
+/// Properties of a changer, a device that brings specimens or sensor units into place.
 ///
 /// ```
 /// use taceva_core::ChangerFacts;
@@ -10,12 +10,12 @@
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ChangerFacts {
-    /// Names of the changer's items; empty if its arguments list the items.
+    /// Names of the specimens or sensor units that the changer can bring. Empty if the arguments of the driver list the names.
     pub holds: Vec<String>,
 }
 
 impl ChangerFacts {
-    /// The same facts with another [`holds`](ChangerFacts::holds).
+    /// Sets [`holds`](ChangerFacts::holds).
     #[must_use]
     pub fn with_holds(mut self, holds: Vec<String>) -> ChangerFacts {
         self.holds = holds;

@@ -1,9 +1,9 @@
-//! Facts about a force transducer before it is opened.
+//! Properties of a force transducer, known before it is opened.
 
 use crate::driver::Axes;
 use crate::quantity::{Hertz, Newton};
 
-/// Facts about a force transducer. Undeclared facts are `None`.
+/// Properties of a force transducer. A property that the driver does not declare is `None`.
 ///
 /// ```
 /// use taceva_core::{Axes, ForceFacts, Hertz};
@@ -13,82 +13,82 @@ use crate::quantity::{Hertz, Newton};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ForceFacts {
-    /// Components that the transducer measures.
+    /// Components of force and torque that the transducer measures.
     pub axes: Axes,
-    /// Readings per second.
+    /// Number of readings per second.
     pub rate: Option<Hertz>,
-    /// Greatest measurable magnitude of each force.
+    /// Greatest magnitude that the transducer can measure, for each force component.
     pub force_max: Option<Newton>,
-    /// Noise of the readings under a constant load: one standard deviation per component.
+    /// Standard deviation of the readings of one force component under a constant load.
     pub noise: Option<Newton>,
-    /// Step between two neighbouring force readings. Equal readings reveal a frozen signal only if the step is below the noise.
+    /// Smallest difference between two unequal readings of force. Equal readings reveal a frozen signal only if this difference is below the noise.
     pub resolution: Option<Newton>,
-    /// Delay from the measurement to the stamp of a reading, ms. A run subtracts this delay from the stamps; 0 needs no correction.
+    /// Delay between a measurement and the time stamp of its reading, ms. A run subtracts this delay from the time stamps.
     pub latency_ms: Option<f64>,
-    /// True if the transducer numbers its readings, see [`ForceTransducer::sequence`](crate::ForceTransducer::sequence).
+    /// True if each reading has a sequence number, see [`ForceTransducer::sequence`](crate::ForceTransducer::sequence).
     pub numbered: bool,
-    /// True if the transducer can take the present load as zero.
+    /// True if the transducer can be set to zero under the present load.
     pub tare: bool,
 }
 
 impl ForceFacts {
-    /// The same facts with another [`axes`](ForceFacts::axes).
+    /// Sets [`axes`](ForceFacts::axes).
     #[must_use]
     pub fn with_axes(mut self, axes: Axes) -> ForceFacts {
         self.axes = axes;
         self
     }
 
-    /// The same facts with another [`rate`](ForceFacts::rate).
+    /// Sets [`rate`](ForceFacts::rate).
     #[must_use]
     pub fn with_rate(mut self, rate: impl Into<Option<Hertz>>) -> ForceFacts {
         self.rate = rate.into();
         self
     }
 
-    /// The same facts with another [`force_max`](ForceFacts::force_max).
+    /// Sets [`force_max`](ForceFacts::force_max).
     #[must_use]
     pub fn with_force_max(mut self, force_max: impl Into<Option<Newton>>) -> ForceFacts {
         self.force_max = force_max.into();
         self
     }
 
-    /// The same facts with another [`noise`](ForceFacts::noise).
+    /// Sets [`noise`](ForceFacts::noise).
     #[must_use]
     pub fn with_noise(mut self, noise: impl Into<Option<Newton>>) -> ForceFacts {
         self.noise = noise.into();
         self
     }
 
-    /// The same facts with another [`resolution`](ForceFacts::resolution).
+    /// Sets [`resolution`](ForceFacts::resolution).
     #[must_use]
     pub fn with_resolution(mut self, resolution: impl Into<Option<Newton>>) -> ForceFacts {
         self.resolution = resolution.into();
         self
     }
 
-    /// The same facts with another [`latency_ms`](ForceFacts::latency_ms).
+    /// Sets [`latency_ms`](ForceFacts::latency_ms).
     #[must_use]
     pub fn with_latency_ms(mut self, latency_ms: impl Into<Option<f64>>) -> ForceFacts {
         self.latency_ms = latency_ms.into();
         self
     }
 
-    /// The same facts with another [`numbered`](ForceFacts::numbered).
+    /// Sets [`numbered`](ForceFacts::numbered).
     #[must_use]
     pub fn with_numbered(mut self, numbered: bool) -> ForceFacts {
         self.numbered = numbered;
         self
     }
 
-    /// The same facts with another [`tare`](ForceFacts::tare).
+    /// Sets [`tare`](ForceFacts::tare).
     #[must_use]
     pub fn with_tare(mut self, tare: bool) -> ForceFacts {
         self.tare = tare;
         self
     }
 
-    /// True if consecutive readings of a working transducer are rarely equal: the resolution, if known, is below the noise.
+    /// True if consecutive readings of a transducer without fault are rarely equal: its resolution is unknown or below its noise.
     ///
     /// ```
     /// use taceva_core::{ForceFacts, Newton};
