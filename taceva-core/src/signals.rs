@@ -28,7 +28,7 @@ pub struct SignalInfo {
     pub rows: u32,
     /// Taxels per row.
     pub columns: u32,
-    /// Numbers per taxel.
+    /// Numbers that each taxel measures, such as 3 for three axes.
     pub channels: u32,
     /// Unit of every number.
     pub unit: Unit,
