@@ -20,7 +20,7 @@ pub struct Found {
     pub title: String,
     /// Arguments with which the driver opens this device and no other: `serial=D20042`.
     pub arguments: String,
-    /// Access to the device.
+    /// State of access to the device: ready, denied or busy.
     pub access: Access,
 }
 

@@ -60,7 +60,7 @@ impl Sample {
         self
     }
 
-    /// The same sample with the branch of the press.
+    /// The same sample with the branch of the press, load or unload.
     #[must_use]
     pub fn with_phase(mut self, phase: impl Into<Option<Phase>>) -> Sample {
         self.phase = phase.into();
