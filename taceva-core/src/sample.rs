@@ -1,4 +1,4 @@
-//! One sample: readings taken together. A live rig and a recording push the same samples.
+//! One sample: readings taken together, from a live rig or from a recording.
 
 mod with;
 
@@ -26,49 +26,49 @@ use crate::wrench::Wrench;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Sample {
-    /// Name within the recording.
+    /// Name of the sample in its recording.
     pub id: String,
-    /// Sensor model.
+    /// Name of the sensor model.
     pub sensor_id: Option<String>,
-    /// Individual unit of the sensor model.
+    /// Name of the individual unit of the sensor model.
     pub unit_id: Option<String>,
     /// Lighting scene, or another condition of the recording.
     pub scene_id: Option<String>,
     /// Contact point, shared by its repeats. Confidence intervals cluster samples by this point.
     pub point_id: Option<String>,
-    /// Depth level within the contact point.
+    /// Number of the depth level at the contact point.
     pub depth_step: Option<u32>,
-    /// Number of the repeat.
+    /// Number of the repeated press at the contact point.
     pub repeat: Option<u32>,
     /// Branch of the press: load or unload.
     pub phase: Option<Phase>,
-    /// Limit of the gel that kept the tip from its target. Labels and picture then belong to the place that the tip reached.
+    /// Limit of the gel that stopped the tip before its target. Labels and picture then belong to the position that the tip reached.
     pub limited_by: Option<Limit>,
-    /// Standard uncertainty of the zero height of the depth `Pz`, mm. `None` if the zero height is not fitted.
+    /// Standard uncertainty of the fitted height at which the depth `Pz` is 0, mm. `None` if this height is not fitted.
     pub zero_u_mm: Option<f64>,
     /// Time of the observation.
     pub stamp: Option<Stamp>,
-    /// Relief of the touched grating.
+    /// Kind of the touched grating: lines or dots.
     pub kind: Option<GratingKind>,
     /// Spacing of the touched grating.
     pub spacing: Option<Nanometre>,
-    /// Spacing that a model predicts.
+    /// Spacing of the touched grating, as a model predicts it.
     pub predicted_spacing: Option<Nanometre>,
-    /// Mean luma of the full-size picture, (299 R + 587 G + 114 B) / 1000, on the 8-bit scale from 0 to 255.
+    /// Mean luma over all pixels of the full-size picture, on the 8-bit scale from 0 to 255. Luma is (299 R + 587 G + 114 B) / 1000.
     pub intensity: Option<f64>,
     /// SHA-256 of the picture's bytes, `sha256:` and 64 hexadecimal digits. Equal digests show equal pictures without decoding.
     pub frame_digest: Option<String>,
     /// Decoded picture.
     pub frame: Option<Frame>,
-    /// Numbers of the sensor's taxels.
+    /// Readings of all taxels, for a sensor with taxels.
     pub signals: Option<Signals>,
-    /// Readings of the reference instruments, one value per channel of the stream.
+    /// Readings of the reference instruments, one per channel.
     pub truth: Readings,
-    /// Predictions of a model, one value per channel of the stream.
+    /// Values that a model predicts, one per channel.
     pub prediction: Option<Readings>,
 }
 
-/// One value per channel of the stream, in the order of its [`Channels`]. Absent values are `None`.
+/// One value per channel, in the order of the [`Channels`] of the samples. An absent value is `None`.
 ///
 /// ```
 /// use taceva_core::Readings;
@@ -81,19 +81,20 @@ pub struct Readings {
 }
 
 impl Readings {
-    /// Readings with the given values. Absent values are `None`.
+    /// Readings with the given values; `None` for an absent value.
     pub fn new(values: Vec<Option<f64>>) -> Readings {
         Readings { values }
     }
 
-    /// Readings with a value for each channel.
+    /// Readings in which every channel has a value.
     pub fn from_values(values: impl IntoIterator<Item = f64>) -> Readings {
         Readings {
             values: values.into_iter().map(Some).collect(),
         }
     }
 
-    /// Channels of a contact as measured by the robot and the force transducer. Other channels are absent.
+    /// Readings of one contact from the pose of the robot and the wrench of the force transducer. Channels other than positions and forces are
+    /// absent.
     ///
     /// ```
     /// use taceva_core::{Channel, Channels, Newton, Readings, Wrench};
@@ -125,12 +126,12 @@ impl Readings {
         }
     }
 
-    /// The value of the channel at `position`; `None` for a missing value.
+    /// The value of the channel at index `position`; `None` if the value is absent or there is no such channel.
     pub fn get(&self, position: usize) -> Option<f64> {
         self.values.get(position).copied().flatten()
     }
 
-    /// The values in order.
+    /// Values of all channels, in their order.
     pub fn as_slice(&self) -> &[Option<f64>] {
         &self.values
     }

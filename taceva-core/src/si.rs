@@ -1,4 +1,4 @@
-//! Conversion to and from SI units, in which poses and speeds cross the plugin interface.
+//! Conversion to and from SI units, which the plugin interface uses for poses and speeds.
 
 use crate::driver::{Speed, SpeedError};
 use crate::geometry::{Point, Pose, Rotation, nearest};
@@ -6,10 +6,10 @@ use crate::quantity::{Degree, Millimetre};
 
 /// Millimetres in a metre.
 const PER_METRE: f64 = 1e3;
-/// Greatest deviation of a quaternion's norm from 1: the accuracy of single precision.
+/// Greatest accepted deviation of a quaternion's norm from 1. Components in single precision meet this limit.
 const LENGTH_TOLERANCE: f64 = 1e-6;
 
-/// A pose in metres and as a unit quaternion. A plain value, which gets no further fields.
+/// A pose: its position in metres, and its rotation as a unit quaternion. A plain value, which gets no further fields.
 ///
 /// ```
 /// use taceva_core::{Millimetre, Point, Pose, SiPose};
@@ -43,9 +43,10 @@ impl From<Pose> for SiPose {
 }
 
 impl SiPose {
-    /// Pose on the grid of [`Pose::on_grid`]; `None` if a number is not finite or the norm of the quaternion is not 1.
+    /// Pose, rounded to the grid of [`Pose::on_grid`]; `None` if a number is not finite or the norm of the quaternion is not 1.
     ///
-    /// A pose on the grid returns unchanged for rotations above −180° and up to 180° about x and z, and less than 90° about y.
+    /// Conversion of a pose on the grid to SI units and back keeps the pose. The angles about x and z must be above −180° and at most 180°, and
+    /// the angle about y between −90° and 90°, both excluded.
     ///
     /// ```
     /// use taceva_core::{Degree, Millimetre, Pose, SiPose};

@@ -28,14 +28,14 @@ pub struct SignalInfo {
     pub rows: u32,
     /// Taxels per row.
     pub columns: u32,
-    /// Numbers per taxel.
+    /// Numbers that each taxel measures, such as 3 for three axes.
     pub channels: u32,
     /// Unit of every number.
     pub unit: Unit,
 }
 
 impl SignalInfo {
-    /// Greatest count of numbers per sample.
+    /// Greatest allowed count of numbers in one sample.
     pub const LEN_MAX: u32 = 16_384;
 
     /// A grid of `rows` × `columns` taxels, each with `channels` numbers in `unit`.
@@ -60,7 +60,7 @@ impl SignalInfo {
         }
     }
 
-    /// True if a sample has 1 to [`LEN_MAX`](SignalInfo::LEN_MAX) numbers. A value read from a file may be invalid.
+    /// True if the grid has 1 to [`LEN_MAX`](SignalInfo::LEN_MAX) numbers. A grid read from a file may be invalid.
     pub const fn is_valid(&self) -> bool {
         let (rows, columns) = (self.rows as u64, self.columns as u64);
         // Two 32-bit numbers have a 64-bit product.
@@ -70,7 +70,7 @@ impl SignalInfo {
         }
     }
 
-    /// Numbers per sample; 0 for an invalid grid, see [`is_valid`](SignalInfo::is_valid).
+    /// Count of numbers in one sample; 0 for an invalid grid, see [`is_valid`](SignalInfo::is_valid).
     pub const fn len(&self) -> usize {
         match self.is_valid() {
             true => self.rows as usize * self.columns as usize * self.channels as usize,
@@ -119,7 +119,7 @@ pub struct Signals {
 }
 
 impl Signals {
-    /// Signals with `values`, taxel by taxel.
+    /// Signals with the numbers `values`. The numbers of one taxel are adjacent.
     ///
     /// # Shapes
     /// `values`: rows × columns × channels.
@@ -144,17 +144,17 @@ impl Signals {
         }
     }
 
-    /// Grid and unit.
+    /// Grid of the taxels, with the unit of their numbers.
     pub fn info(&self) -> SignalInfo {
         self.info
     }
 
-    /// All numbers, taxel by taxel.
+    /// Numbers of all taxels. The numbers of one taxel are adjacent.
     pub fn values(&self) -> &[f32] {
         &self.values
     }
 
-    /// All numbers, without a copy.
+    /// Numbers of all taxels, moved out without a copy.
     pub fn into_values(self) -> Vec<f32> {
         self.values
     }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::field::Field;
 
-/// A skipped item with its reason.
+/// An item that a plan or an evaluation skips, with the reason.
 ///
 /// ```
 /// use taceva_core::{SkipReason, Skipped};
@@ -21,7 +21,7 @@ pub struct Skipped {
 }
 
 impl Skipped {
-    /// Skips `what` for `reason`.
+    /// States that the item `what` is skipped for `reason`.
     pub fn new(what: impl Into<String>, reason: SkipReason) -> Skipped {
         Skipped {
             what: what.into(),
@@ -30,7 +30,7 @@ impl Skipped {
     }
 }
 
-/// Reason for a skip.
+/// Reason why a plan or an evaluation skips an item.
 ///
 /// ```
 /// use taceva_core::{Field, SkipReason};
@@ -39,11 +39,11 @@ impl Skipped {
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum SkipReason {
-    /// The stream lacks a required field.
+    /// No sample has this required field.
     FieldAbsent(Field),
-    /// The stream lacks a required channel.
+    /// This required channel is not scored.
     ChannelAbsent(String),
-    /// A required fact about the sensor is not declared.
+    /// The sensor's driver does not declare this required fact.
     FactAbsent(&'static str),
     /// The gel is opaque, so ambient light cannot reach the camera.
     GelIsOpaque,
@@ -53,7 +53,7 @@ pub enum SkipReason {
     NoSplit(String),
     /// The user did not request the item.
     NotWanted,
-    /// The caller supplied a finished result.
+    /// The caller supplied the finished result of the item.
     AlreadyThere,
 }
 

@@ -5,9 +5,9 @@ use std::fmt;
 use crate::grating::GratingKind;
 use crate::nanometre::Nanometre;
 
-/// Object that the robot presses into the gel. Its displayed text is its name in a [`Changer`](crate::Changer) and never changes. This type
-/// gets no further variant in a compatible version. The specimen decides every label and the identity of a press, so readers must handle
-/// each kind.
+/// Object that the robot presses into the gel. Its [`Display`](std::fmt::Display) text names it in a [`Changer`](crate::Changer) and never changes.
+/// This type gets no further variant in a compatible version: labels and names of presses depend on the specimen, so readers must handle each
+/// variant.
 ///
 /// ```
 /// use taceva_core::{GratingKind, Nanometre, Specimen};
@@ -23,7 +23,7 @@ pub enum Specimen {
     },
     /// A board with a grating.
     Grating {
-        /// Relief of the grating.
+        /// Kind of the grating: lines or dots.
         kind: GratingKind,
         /// Distance from one ridge or bump to the next.
         spacing: Nanometre,

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use crate::precision::whole_count;
 
-/// Clock of a time stamp.
+/// Clock of the time stamps in a recording.
 ///
 /// ```
 /// use taceva_core::Clock;
@@ -16,7 +16,7 @@ use crate::precision::whole_count;
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum Clock {
-    /// Seconds since 1970. The clock may jump.
+    /// Seconds since the start of 1970, UTC. This clock may jump.
     Unix,
     /// Seconds since an arbitrary start. The clock never jumps.
     Monotonic,
@@ -54,7 +54,7 @@ pub struct Stamp {
 const NANOSECONDS: f64 = 1e9;
 
 impl Stamp {
-    /// Stamp from times of the plugin interface, to the nanosecond.
+    /// Stamp from the time of measurement and the time of receipt, to the nanosecond. Both times count from the start of the clock.
     ///
     /// ```
     /// use std::time::Duration;
@@ -70,7 +70,7 @@ impl Stamp {
         }
     }
 
-    /// Stamp of an observation that is received at the moment of its measurement.
+    /// Stamp of an observation that is measured and received at the time `now`.
     pub fn at(now: Duration) -> Stamp {
         Stamp::new(now, Some(now))
     }

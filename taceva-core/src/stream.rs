@@ -1,4 +1,4 @@
-//! Streams of samples, which sources push into sinks.
+//! Sinks, which receive samples one by one from a live rig or a recording.
 
 use crate::field::{Field, FieldSet};
 use crate::sample::Sample;
@@ -56,7 +56,7 @@ impl<S: SampleSink + ?Sized> SampleSink for &mut S {
     }
 }
 
-/// Two sinks that receive one stream, to record and evaluate in one pass. A plain pair, which gets no further fields.
+/// Two sinks that receive the same samples, for example to record and evaluate them in one pass. A plain pair, which gets no further fields.
 ///
 /// ```
 /// # use taceva_core::{FieldSet, SampleSink, SinkError};
@@ -95,7 +95,7 @@ impl<A: SampleSink, B: SampleSink> SampleSink for Tee<A, B> {
     }
 }
 
-/// A sink that hides fields from an inner sink, so that the source leaves these fields empty.
+/// A sink that requests only some of the fields that an inner sink reads, and empties the others.
 ///
 /// ```
 /// # use taceva_core::{FieldSet, SampleSink, SinkError};
@@ -121,7 +121,7 @@ pub struct Select<S> {
 }
 
 impl<S: SampleSink> Select<S> {
-    /// The sink `inner`, with only the fields in `kept`.
+    /// A sink that passes to `inner` only the fields in `kept`, and data that no [`Field`] names, such as the id.
     pub fn new(inner: S, kept: FieldSet) -> Select<S> {
         Select { inner, kept }
     }

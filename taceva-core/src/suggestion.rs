@@ -1,6 +1,7 @@
-//! Suggestions for misspelt words: the nearest known word, by one edit distance for all messages.
+//! Suggestions for misspelt words: the known word with the smallest edit distance.
 
-/// Candidate with the fewest edits from `wrong`, the first in case of a tie. `None` if more than a third of the letters need an edit.
+/// Candidate with the fewest edits from `wrong`, or the first of several such candidates. `None` if the edits exceed a third of the letters of the
+/// longer word.
 ///
 /// An edit inserts, removes or replaces a letter, or swaps two neighbours (optimal string alignment). Upper and lower case are equal.
 ///
@@ -25,7 +26,7 @@ pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -
         .map(|(_, _, candidate)| candidate)
 }
 
-/// "Did you mean" with the nearest of `accepted`, or the list of all accepted words.
+/// Text `did you mean …?` with the word of `accepted` nearest to `wrong`. Without a near word, the text lists all of `accepted`.
 ///
 /// ```
 /// use taceva_core::suggestion;
@@ -39,7 +40,7 @@ pub fn suggestion(wrong: &str, accepted: &[&str]) -> String {
     }
 }
 
-/// Longest word for the comparison, letters. A longer word is not a typing mistake, and the run time grows with the square of the length.
+/// Greatest length of a word with suggestions, letters. A longer word is not a typing mistake, and the run time grows with the square of the length.
 const LONGEST: usize = 256;
 
 fn edits(first: &[char], second: &[char]) -> usize {

@@ -16,7 +16,7 @@ pub use instrument::Instrument;
 
 use crate::date::Date;
 
-/// Instrument of some labels, with its driver, serial number and certificate.
+/// Instrument that measured labels, with its driver, serial number and certificate.
 ///
 /// ```
 /// use taceva_core::{Amount, Certificate, Coverage, Instrument, Traceability};
@@ -46,7 +46,7 @@ pub struct Traceability {
 }
 
 impl Traceability {
-    /// Instrument without driver and certificate.
+    /// Entry for `instrument`, without driver, serial number and certificate.
     pub fn new(instrument: Instrument) -> Traceability {
         Traceability {
             instrument,
@@ -56,7 +56,7 @@ impl Traceability {
         }
     }
 
-    /// The same instrument, read by `driver`, with the serial number that the driver read.
+    /// The same entry with the driver that read the instrument, and with the serial number that this driver read.
     #[must_use]
     pub fn with_driver(self, driver: impl Into<String>, serial: Option<String>) -> Traceability {
         Traceability {
@@ -66,7 +66,7 @@ impl Traceability {
         }
     }
 
-    /// The same instrument with a certificate.
+    /// The same entry with a certificate of the instrument.
     ///
     /// # Errors
     /// The errors of [`Certificate::check`].
@@ -81,8 +81,8 @@ impl Traceability {
         })
     }
 
-    /// Instruments of labels from two origins, each once. If only the labels of one origin have a certificate of an instrument, an entry
-    /// without a certificate represents the other labels.
+    /// Entries for two sets of labels, without duplicates. If only one set has a certificate of an instrument, the result has an entry without a
+    /// certificate for the other set.
     ///
     /// ```
     /// use taceva_core::{Certificate, Coverage, Instrument, Traceability};
@@ -114,22 +114,22 @@ impl Traceability {
         all
     }
 
-    /// Certificate and serial number of the instrument, if their serial numbers differ.
+    /// Certificate, and the serial number that the driver read, if the certificate states another serial number.
     pub fn other_serial(&self) -> Option<(&Certificate, &str)> {
         let certificate = self.certificate.as_ref()?;
         let read = self.serial.as_deref()?;
         (read != certificate.serial).then_some((certificate, read))
     }
 
-    /// Certificate and its last day, if the certificate had expired before `day`, the last day of the labels. `None` if `all` has a
-    /// certificate of the instrument that is valid on `day`: the expired certificate then applies to earlier labels.
+    /// Certificate and its last day of validity, if this day is before `day`, the last day of the labels. `None` if a certificate in `all` of the
+    /// same instrument is valid on `day`: the expired certificate then applies to earlier labels.
     pub fn expired_on(&self, day: Date, all: &[Traceability]) -> Option<(&Certificate, Date)> {
         let certificate = self.certificate.as_ref()?;
         let until = certificate.valid_until.filter(|until| *until < day)?;
         (!self.is_covered_on(day, all)).then_some((certificate, until))
     }
 
-    /// True if `all` has a certificate of the instrument that is valid on `day`.
+    /// True if `all` has a certificate of the same instrument that is valid on `day`.
     fn is_covered_on(&self, day: Date, all: &[Traceability]) -> bool {
         let of_instrument = all.iter().filter(|of| of.instrument == self.instrument);
         let mut certificates = of_instrument.filter_map(|of| of.certificate.as_ref());

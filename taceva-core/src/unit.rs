@@ -42,19 +42,19 @@ pub enum Unit {
     /// Lux, lx, for illuminance.
     #[cfg_attr(feature = "serde", serde(rename = "lx"))]
     Lux,
-    /// Pixels of the sensor's own picture.
+    /// Pixels of the sensor's picture.
     #[cfg_attr(feature = "serde", serde(rename = "px"))]
     Pixel,
-    /// Compliance, mm/N: indentation per force.
+    /// Millimetres per newton, mm/N, for compliances: indentation per force.
     #[cfg_attr(feature = "serde", serde(rename = "mm/N"))]
     MillimetrePerNewton,
     /// Square millimetres, mm², for areas.
     #[cfg_attr(feature = "serde", serde(rename = "mm²"))]
     SquareMillimetre,
-    /// Drift of a position, mm/h.
+    /// Millimetres per hour, mm/h, for drifts of positions.
     #[cfg_attr(feature = "serde", serde(rename = "mm/h"))]
     MillimetrePerHour,
-    /// Drift of a force, N/h.
+    /// Newtons per hour, N/h, for drifts of forces.
     #[cfg_attr(feature = "serde", serde(rename = "N/h"))]
     NewtonPerHour,
     /// Microteslas, µT, for magnetic flux densities.
@@ -109,7 +109,7 @@ impl Unit {
         Unit::One,
     ];
 
-    /// Symbol in files and reports.
+    /// Symbol of the unit in files and reports.
     pub const fn symbol(self) -> &'static str {
         match self {
             Unit::Millimetre => "mm",

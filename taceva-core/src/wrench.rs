@@ -3,7 +3,7 @@
 use crate::geometry::nearest;
 use crate::quantity::{Newton, NewtonMillimetre};
 
-/// Force and torque on the gel, in the sensor's frame. A compressing force has a positive z. A plain value, which gets no further fields.
+/// Force and torque on the gel, in the sensor's frame. A compressing force is positive along z. A plain value, which gets no further fields.
 ///
 /// ```
 /// use taceva_core::{Newton, Wrench};
@@ -19,8 +19,7 @@ pub struct Wrench {
 }
 
 impl Wrench {
-    /// Nearest wrench whose torques are whole multiples of 10⁻⁶ N·mm, as on [`Pose::on_grid`](crate::Pose::on_grid). Forces are
-    /// unchanged.
+    /// The same wrench with each torque rounded to a multiple of 10⁻⁶ N·mm. Forces are unchanged.
     #[must_use]
     pub fn on_grid(self) -> Wrench {
         Wrench {

@@ -1,4 +1,4 @@
-//! Devices that are connected but not opened.
+//! Result of a search for connected devices, which opens no device.
 
 use std::fmt;
 
@@ -18,14 +18,14 @@ pub struct Found {
     pub driver: DriverKey,
     /// Name that the device reports, with control characters escaped.
     pub title: String,
-    /// Arguments that select the device among several of its kind: `serial=D20042`.
+    /// Arguments with which the driver opens this device and no other: `serial=D20042`.
     pub arguments: String,
-    /// Access to the device.
+    /// State of access to the device: ready, denied or busy.
     pub access: Access,
 }
 
 impl Found {
-    /// Device that `driver` can open now, without arguments that select it among other devices.
+    /// A device that `driver` can open now, without arguments that tell it from other devices.
     pub fn new(driver: DriverKey, title: impl Into<String>) -> Found {
         Found {
             driver,

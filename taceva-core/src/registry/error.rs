@@ -7,7 +7,7 @@ use super::DescriptorError;
 use crate::driver::DriverKind;
 use crate::id::DriverKey;
 
-/// Driver that a registry rejects or lacks.
+/// Error for a driver that a registry rejects or does not have.
 ///
 /// ```
 /// use taceva_core::{Registry, RegistryError, Robot};
@@ -22,23 +22,23 @@ pub enum RegistryError {
     Unknown {
         /// Kind of driver that was requested.
         kind: DriverKind,
-        /// Name as written by the user.
+        /// Name that the caller requested.
         key: String,
         /// Most similar known name, if any.
         nearest: Option<String>,
         /// Every known name.
         known: Vec<DriverKey>,
     },
-    /// Two drivers with one name.
+    /// The registry already has a driver with this name.
     Twice {
-        /// Common name of the drivers.
+        /// Name of both drivers.
         key: DriverKey,
         /// Title of the driver that was registered.
         first: String,
         /// Title of the driver that was rejected.
         second: String,
     },
-    /// A driver whose kind differs from the kind of the registry.
+    /// The driver's kind differs from the kind of the registry.
     Kind {
         /// Name of the driver.
         key: DriverKey,
@@ -47,7 +47,7 @@ pub enum RegistryError {
         /// Kind of the driver.
         found: DriverKind,
     },
-    /// A built-in driver whose description contradicts itself.
+    /// The description of a built-in driver contradicts itself.
     Descriptor(DescriptorError),
 }
 

@@ -64,8 +64,8 @@ pub trait Factory<D: ?Sized>: Send + Sync {
         Ok(Vec::new())
     }
 
-    /// Digest of the driver's library, `sha256:` and 64 hexadecimal digits; `None` if the driver is linked into the program. Caches never use
-    /// results of another build.
+    /// Digest of the driver's library, `sha256:` and 64 hexadecimal digits; `None` if the driver is linked into the program. Caches reuse only
+    /// results of the same build.
     ///
     /// # Errors
     /// [`DriverError`] if the library cannot be read.

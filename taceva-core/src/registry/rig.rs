@@ -30,7 +30,7 @@ impl Rig {
         Rig::default()
     }
 
-    /// Returns the shared object called `name`. The first request creates the object by `make`.
+    /// Returns the shared object called `name`. The first request creates the object with `make`.
     ///
     /// The name must identify the resource completely: `tcp 192.168.1.10:502`.
     ///
@@ -59,12 +59,13 @@ impl Rig {
 
     /// Registers a simulated bench. A bench with the same name is replaced.
     ///
-    /// The name consists of the drivers' key before its last `/`, a space, and their argument `rig`: `sim bench`.
+    /// The name joins two texts with a space: the driver's key before its last `/`, and its argument `rig`. For example, `sim/robot` with
+    /// `rig=bench` gives `sim bench`.
     pub fn offer_bench(&mut self, name: &str, bench: Arc<dyn SimulatedBench>) {
         self.benches.insert(name.to_owned(), bench);
     }
 
-    /// Simulated bench called `name`; `None` unless one of its devices was opened.
+    /// Simulated bench called `name`; `None` if no opened device registered it.
     pub fn bench(&self, name: &str) -> Option<Arc<dyn SimulatedBench>> {
         self.benches.get(name).map(Arc::clone)
     }

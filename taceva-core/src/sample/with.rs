@@ -1,4 +1,4 @@
-//! Setters for single fields of a sample. Callers still compile when a field is added.
+//! Constructor of a sample and setters for its single fields. They let callers compile when a field is added.
 
 use super::{Readings, Sample};
 use crate::frame::Frame;
@@ -18,14 +18,14 @@ impl Sample {
         }
     }
 
-    /// The same sample with the sensor model.
+    /// The same sample with the name of the sensor model.
     #[must_use]
     pub fn with_sensor_id(mut self, sensor_id: impl Into<Option<String>>) -> Sample {
         self.sensor_id = sensor_id.into();
         self
     }
 
-    /// The same sample with the individual unit of the sensor model.
+    /// The same sample with the name of the individual unit of its sensor model.
     #[must_use]
     pub fn with_unit_id(mut self, unit_id: impl Into<Option<String>>) -> Sample {
         self.unit_id = unit_id.into();
@@ -46,35 +46,35 @@ impl Sample {
         self
     }
 
-    /// The same sample with the depth level within the point.
+    /// The same sample with the number of the depth level at its contact point.
     #[must_use]
     pub fn with_depth_step(mut self, depth_step: impl Into<Option<u32>>) -> Sample {
         self.depth_step = depth_step.into();
         self
     }
 
-    /// The same sample with the number of the repeat.
+    /// The same sample with the number of the repeated press.
     #[must_use]
     pub fn with_repeat(mut self, repeat: impl Into<Option<u32>>) -> Sample {
         self.repeat = repeat.into();
         self
     }
 
-    /// The same sample with the branch of the press.
+    /// The same sample with the branch of the press, load or unload.
     #[must_use]
     pub fn with_phase(mut self, phase: impl Into<Option<Phase>>) -> Sample {
         self.phase = phase.into();
         self
     }
 
-    /// The same sample with the limit that kept the tip from its target.
+    /// The same sample with the limit that stopped the tip before its target.
     #[must_use]
     pub fn with_limited_by(mut self, limited_by: impl Into<Option<Limit>>) -> Sample {
         self.limited_by = limited_by.into();
         self
     }
 
-    /// The same sample with the standard uncertainty of the zero height of its depth, mm.
+    /// The same sample with the standard uncertainty of the height at which its depth is 0, mm.
     #[must_use]
     pub fn with_zero_u_mm(mut self, zero_u_mm: impl Into<Option<f64>>) -> Sample {
         self.zero_u_mm = zero_u_mm.into();
@@ -88,21 +88,21 @@ impl Sample {
         self
     }
 
-    /// The same sample with the relief of the grating.
+    /// The same sample with the kind of the touched grating.
     #[must_use]
     pub fn with_kind(mut self, kind: impl Into<Option<GratingKind>>) -> Sample {
         self.kind = kind.into();
         self
     }
 
-    /// The same sample with the spacing of the grating.
+    /// The same sample with the spacing of the touched grating.
     #[must_use]
     pub fn with_spacing(mut self, spacing: impl Into<Option<Nanometre>>) -> Sample {
         self.spacing = spacing.into();
         self
     }
 
-    /// The same sample with the spacing that a model predicts.
+    /// The same sample with the grating spacing that a model predicts.
     #[must_use]
     pub fn with_predicted_spacing(
         mut self,
@@ -133,7 +133,7 @@ impl Sample {
         self
     }
 
-    /// The same sample with the numbers of its taxels.
+    /// The same sample with the readings of its taxels.
     #[must_use]
     pub fn with_signals(mut self, signals: impl Into<Option<Signals>>) -> Sample {
         self.signals = signals.into();

@@ -1,10 +1,10 @@
-//! Errors of signals.
+//! Errors for invalid signals of a taxel sensor.
 
 use std::fmt;
 
 use super::SignalInfo;
 
-/// Rejection of numbers as signals of a taxel sensor.
+/// Error for numbers that cannot be signals of a taxel sensor.
 ///
 /// ```
 /// use taceva_core::{SignalError, SignalInfo, Unit};
@@ -13,21 +13,21 @@ use super::SignalInfo;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SignalError {
-    /// A grid without numbers, or with more than [`LEN_MAX`](SignalInfo::LEN_MAX) numbers.
+    /// The grid has no numbers, or more than [`LEN_MAX`](SignalInfo::LEN_MAX) numbers.
     Grid {
-        /// The grid.
+        /// The rejected grid.
         info: SignalInfo,
     },
-    /// More or fewer numbers than the grid has.
+    /// The count of numbers differs from the count that the grid requires.
     Count {
-        /// The grid.
+        /// Grid of the signals.
         info: SignalInfo,
         /// Count of numbers found.
         found: usize,
     },
-    /// A number that is not finite.
+    /// A number is infinite or NaN.
     NotFinite {
-        /// Index of the number, from 0, taxel by taxel.
+        /// Index of this number among all numbers, from 0.
         position: usize,
         /// The number as text.
         found: String,

@@ -12,15 +12,15 @@ use crate::printable::shown;
 use crate::suggestion::suggestion;
 use crate::unit::{Amount, Unit};
 
-/// Accepted coefficients of a correlation, for messages.
+/// Accepted correlation coefficients, as text for error messages.
 pub(super) const COEFFICIENT: &str = "a number from -1 to 1, or \"unknown\"";
 
-/// Accepted coverage factors. 12.7 belongs to one degree of freedom at 95 %, so a much greater factor lacks its decimal point.
+/// Accepted coverage factors. One degree of freedom at 95 % gives 12.7. A much greater factor probably lacks its decimal point.
 const COVERAGE_FACTORS: RangeInclusive<f64> = 1.0..=20.0;
-/// Least accepted probability: the probability of the least factor. A smaller probability is the level of a test, such as 0.05.
+/// Least accepted coverage probability, which belongs to the coverage factor 1. A smaller number is probably a significance level, such as 0.05.
 const LEAST_PROBABILITY: f64 = 0.68;
 
-/// Calibration certificate of an instrument, by channel.
+/// Calibration certificate of an instrument, with the uncertainty of each channel.
 ///
 /// ```
 /// use taceva_core::{Certificate, Coverage, Instrument};
@@ -55,15 +55,15 @@ pub struct Certificate {
     pub valid_until: Option<Date>,
     /// Serial number of the instrument.
     pub serial: String,
-    /// Coverage of all expanded uncertainties.
+    /// Coverage factor or coverage probability of all expanded uncertainties.
     pub coverage: Coverage,
-    /// Expanded uncertainty by channel, constant over all readings: `U`.
+    /// Expanded uncertainty of each channel, equal for all readings: the key `U` in files.
     pub expanded: BTreeMap<String, Amount>,
-    /// Expanded uncertainty by channel, relative to the reading: `U_relative`.
+    /// Expanded uncertainty of each channel as a share of the reading: the key `U_relative` in files. 0.01 is 1 %.
     pub relative: BTreeMap<String, f64>,
-    /// Least and greatest calibrated value by channel.
+    /// Least and greatest calibrated value of each channel.
     pub range: BTreeMap<String, [Amount; 2]>,
-    /// Correlations of uncertainties. Pairs without an entry have the correlation 0.
+    /// Correlations between the uncertainties of two channels. The correlation is 0 for each pair of channels without an entry.
     pub correlation: Vec<StatedCorrelation>,
     /// Temperature of the calibration, as the certificate states it: `23 ± 2 C`; `None` if not stated.
     pub temperature: Option<String>,
@@ -82,9 +82,9 @@ pub struct Certificate {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct StatedCorrelation {
-    /// The two channels.
+    /// Names of the two channels.
     pub between: [String; 2],
-    /// Coefficient from −1 to 1; `None` if the certificate states none.
+    /// Correlation coefficient from −1 to 1; `None` if the certificate states none.
     pub coefficient: Option<f64>,
 }
 
@@ -115,18 +115,18 @@ impl Certificate {
         }
     }
 
-    /// True if `value` is in the range of `channel`, or the certificate states no range. The value is in the channel's stored unit.
+    /// True if `value` is in the calibrated range of `channel`, or this channel has no such range. `value` is in the stored unit of the channel.
     pub fn covers(&self, channel: &str, value: f64) -> bool {
         let range = self.range.get(channel);
         range.is_none_or(|[least, most]| (least.value..=most.value).contains(&value))
     }
 
-    /// True from the day of issue to the last day of validity.
+    /// True if `day` is between the day of issue and the last day of validity, both included.
     pub(super) fn is_valid_on(&self, day: Date) -> bool {
         self.issued <= day && self.valid_until.is_none_or(|until| day <= until)
     }
 
-    /// Checks the certificate for contradictions, as a certificate of `instrument`.
+    /// Checks that the certificate has no contradiction and states only channels that `instrument` measures.
     ///
     /// # Errors
     /// [`CertificateError`] with the key, the value found and the values expected.

@@ -14,13 +14,13 @@ use std::fmt;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Coverage {
-    /// Coverage factor k.
+    /// Coverage factor, the ratio of expanded to standard uncertainty: the key `k` in files.
     Factor(f64),
-    /// Coverage probability p.
+    /// Coverage probability of the interval that the expanded uncertainty spans.
     Probability {
-        /// Probability, in 0..1.
+        /// Probability, from 0.68 to below 1: the key `p` in files.
         p: f64,
-        /// Degrees of freedom; `None` for infinity.
+        /// Degrees of freedom of the standard uncertainty; `None` for infinity.
         dof: Option<f64>,
     },
 }

@@ -1,4 +1,4 @@
-//! Errors in the text of a certificate.
+//! Errors in the entries of a certificate.
 
 use std::fmt;
 
@@ -18,34 +18,34 @@ use crate::suggestion::nearest;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CertificateError {
-    /// A key with a rejected value.
+    /// The value of a key is rejected.
     Value {
-        /// Key: `U.Fz`.
+        /// Key of the value, such as `U.Fz`.
         key: String,
         /// Value as found.
         found: String,
         /// Accepted values.
         expected: String,
     },
-    /// A key that certificates do not have.
+    /// No certificate has this key.
     UnknownKey {
         /// Key as written.
         key: String,
-        /// Keys of a certificate.
+        /// Keys that a certificate may have.
         known: Vec<&'static str>,
     },
     /// All missing required keys.
     MissingKeys(Vec<&'static str>),
-    /// `U` with neither `k` nor `p`.
+    /// Neither the coverage factor `k` nor the coverage probability `p` is stated.
     NoCoverage,
-    /// Both `k` and `p`, or `k` and `dof`.
+    /// The coverage factor `k` is stated together with the coverage probability `p` or with the degrees of freedom `dof`.
     TwoCoverages,
-    /// Neither `U` nor `U_relative`.
+    /// Neither `U` nor `U_relative` states an expanded uncertainty.
     NoUncertainty,
 }
 
 impl CertificateError {
-    /// Key of the table entry at fault; `None` if the error concerns the whole table.
+    /// Key of the rejected table entry; `None` if the error concerns the whole table.
     ///
     /// ```
     /// use taceva_core::CertificateError;
@@ -62,7 +62,7 @@ impl CertificateError {
         }
     }
 
-    /// Error for a rejected value.
+    /// Error for the value `found` of `key`, with the values expected.
     pub(super) fn value(
         key: impl Into<String>,
         found: impl Into<String>,

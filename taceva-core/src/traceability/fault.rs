@@ -1,4 +1,4 @@
-//! Contradictions between a certificate and its instrument, or between a certificate and the days of the labels.
+//! Contradictions between a certificate and its instrument, or between its validity and the days of the labels.
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -8,7 +8,7 @@ use super::instrument::Instrument;
 use crate::date::Date;
 use crate::printable::shown;
 
-/// Contradiction between a certificate and its instrument, or between a certificate and the days of the labels.
+/// Contradiction between a certificate and its instrument, or between its validity and the days on which labels were measured.
 ///
 /// ```
 /// use taceva_core::{Certificate, Coverage, Instrument, Traceability};
@@ -29,11 +29,11 @@ pub struct CertificateFault {
     pub instrument: Instrument,
     /// Number of the certificate.
     pub number: String,
-    /// Contradicting values.
+    /// Values that contradict each other.
     pub contradiction: CertificateContradiction,
 }
 
-/// Contradicting values of a certificate and of its instrument or labels.
+/// Values of a certificate that contradict its instrument or its labels.
 ///
 /// ```
 /// use taceva_core::CertificateContradiction;
@@ -47,31 +47,31 @@ pub struct CertificateFault {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CertificateContradiction {
-    /// The instrument has another serial number.
+    /// The instrument has a serial number other than the certificate states.
     OtherSerial {
-        /// Serial number of the certificate.
+        /// Serial number that the certificate states.
         stated: String,
         /// Serial number that the driver read.
         read: String,
     },
-    /// The certificate had expired on the last day of the labels.
+    /// The certificate expired before the last day of the labels.
     Expired {
         /// Last day of validity.
         until: Date,
-        /// Last day of the labels.
+        /// Last day on which labels were measured.
         last: Date,
     },
     /// The certificate was issued after the first day of the labels.
     IssuedLater {
         /// Day of issue.
         issued: Date,
-        /// First day of the labels.
+        /// First day on which labels were measured.
         first: Date,
     },
 }
 
 impl CertificateFault {
-    /// True if the certificate belongs to another instrument and so does not apply to the labels.
+    /// True if the serial numbers differ, so that the certificate does not apply to the labels.
     pub fn is_error(&self) -> bool {
         matches!(
             self.contradiction,
@@ -104,8 +104,8 @@ impl fmt::Display for CertificateFault {
 }
 
 impl Traceability {
-    /// Contradictions of the certificate, the serial number first. `days` are the days of the labels, if known. Another certificate in `all`
-    /// that covers a day replaces this certificate on that day.
+    /// Contradictions of the certificate. A different serial number is first. `days` are the first and the last day of the labels, if known. A day on
+    /// which another certificate in `all` is valid gives no contradiction.
     pub fn faults(
         &self,
         days: Option<&RangeInclusive<Date>>,
@@ -140,8 +140,8 @@ impl Traceability {
             .collect()
     }
 
-    /// Day of issue of the certificate, if the issue is after `day`, the first day of the labels. `None` if `all` has a certificate of the
-    /// instrument that is valid on `day`.
+    /// Day of issue of the certificate, if this day is after `day`, the first day of the labels. `None` if a certificate in `all` of the same
+    /// instrument is valid on `day`.
     pub fn issued_after(&self, day: Date, all: &[Traceability]) -> Option<Date> {
         let issued = self.certificate.as_ref()?.issued;
         (issued > day && !self.is_covered_on(day, all)).then_some(issued)

@@ -3,7 +3,7 @@
 use crate::display::display;
 use crate::unit::Unit;
 
-/// An instrument whose readings become labels, or the sensor itself.
+/// Instrument that can have a certificate: it measures labels, or is the tactile sensor itself.
 ///
 /// ```
 /// use taceva_core::{Instrument, Unit};

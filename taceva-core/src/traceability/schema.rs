@@ -1,4 +1,4 @@
-//! Text forms of a certificate's dates and amounts in files.
+//! Form of certificates and their instruments in files, with dates and amounts as text.
 
 mod entries;
 
@@ -73,7 +73,7 @@ enum Coefficient {
     Word(String),
 }
 
-/// A date, in quotes or as TOML writes it.
+/// Text of a date, which TOML may write with or without quotes.
 struct DateText(String);
 
 impl Serialize for DateText {

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use super::{SourceUnit, Unit, UnitError};
 
-/// A number in a stored unit, written as `2.0 mN` or `1 %`. A plain value, which gets no further field.
+/// A number in the unit in which TacEva stores its quantity, parsed from text such as `2.0 mN` or `1 %`. A plain value, which gets no further field.
 ///
 /// ```
 /// use taceva_core::{Amount, Unit};
@@ -62,7 +62,7 @@ impl FromStr for Amount {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum AmountError {
-    /// The text has no blank between number and unit.
+    /// The text has no blank before its unit. Only `%` needs none.
     Form,
     /// The unit is unknown.
     Unit(UnitError),

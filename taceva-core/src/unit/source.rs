@@ -1,13 +1,13 @@
-//! Units of incoming labels, and their conversion to the stored unit.
+//! Units in which labels and amounts are written, and their conversion to the stored unit.
 
 use std::fmt;
 
 use super::Unit;
 
-/// Unit of incoming labels, with the conversion to the stored unit.
+/// Unit in which labels and amounts are written, with the conversion to the stored unit.
 ///
 /// # Units
-/// [`convert`](SourceUnit::convert) rounds once, so `m → mm` multiplies and `um → mm` divides.
+/// [`convert`](SourceUnit::convert) multiplies from m to mm and divides from um to mm, so that it rounds once.
 ///
 /// ```
 /// use taceva_core::{SourceUnit, Unit};
@@ -31,11 +31,11 @@ enum Scale {
 
 /// Standard gravity, m/s²: exact by definition (3rd CGPM, 1901).
 const STANDARD_GRAVITY: f64 = 9.806_65;
-/// Pound-force, N: exact, 0.45359237 kg of the international pound (1959) under standard gravity.
+/// Pound-force, N: the weight of one international pound (1959), exactly 0.45359237 kg, under standard gravity.
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
 /// Ounce-force, N: a sixteenth of a pound-force.
 const OUNCE_FORCE: f64 = POUND_FORCE / 16.0;
-/// Inch, mm: exact (1959).
+/// Inch, mm: exact by definition (1959).
 const INCH: f64 = 25.4;
 /// Foot, mm: twelve inches.
 const FOOT: f64 = 304.8;
@@ -150,7 +150,7 @@ impl SourceUnit {
         SOURCE_UNITS.iter().map(|(symbol, _, _)| *symbol)
     }
 
-    /// Symbol as written.
+    /// Symbol of the unit, as [`parse`](SourceUnit::parse) accepted it.
     pub const fn symbol(&self) -> &'static str {
         self.symbol
     }
@@ -160,8 +160,8 @@ impl SourceUnit {
         self.unit
     }
 
-    /// Shift of the decimal point in the conversion to the stored unit, in places; `None` if the factor is not a power of ten. Shifting the
-    /// point of a text before parsing rounds once; converting the parsed number rounds a second time.
+    /// Places by which the conversion to the stored unit shifts the decimal point: 3 from m to mm. `None` if the factor is not a power of ten.
+    /// Shifting the point in the text rounds once, in parsing; [`convert`](SourceUnit::convert) rounds the parsed number again.
     pub fn decimal_shift(&self) -> Option<i32> {
         let find = |factor: f64| {
             let powers: [(f64, i32); 7] = [
@@ -192,7 +192,7 @@ impl SourceUnit {
     }
 }
 
-/// A symbol that is not a known unit.
+/// Error for a symbol that is not a known unit.
 ///
 /// ```
 /// use taceva_core::SourceUnit;

@@ -1,6 +1,6 @@
 //! Facts about a lighting device before it is opened.
 
-/// Facts about a lighting device.
+/// Facts that a driver declares about a lighting device.
 ///
 /// ```
 /// use taceva_core::LightingFacts;
@@ -10,12 +10,12 @@
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct LightingFacts {
-    /// Names of the scenes. The scene of the calibration is first.
+    /// Names of the lighting scenes. The first one is the scene of the calibration.
     pub scenes: Vec<String>,
 }
 
 impl LightingFacts {
-    /// The same facts with another [`scenes`](LightingFacts::scenes).
+    /// The same facts with the given [`scenes`](LightingFacts::scenes).
     #[must_use]
     pub fn with_scenes(mut self, scenes: Vec<String>) -> LightingFacts {
         self.scenes = scenes;

@@ -4,7 +4,7 @@ use crate::footprint::Footprint;
 use crate::frame::FrameInfo;
 use crate::quantity::{Hertz, Millimetre, Newton};
 
-/// Facts about a sensor. Undeclared facts are `None`.
+/// Facts that a driver declares about a sensor. An undeclared fact is `None`.
 ///
 /// ```
 /// use taceva_core::{Footprint, Millimetre, SensorFacts};
@@ -15,7 +15,7 @@ use crate::quantity::{Hertz, Millimetre, Newton};
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct SensorFacts {
-    /// Size and format of the frames; `None` if they depend on arguments or on a recording.
+    /// Size and format of the camera frames; `None` if they depend on the driver's arguments or on a replayed recording.
     pub frame: Option<FrameInfo>,
     /// Frames per second.
     pub rate: Option<Hertz>,
@@ -23,89 +23,89 @@ pub struct SensorFacts {
     pub opaque: Option<bool>,
     /// True if markers in the gel show its shear.
     pub markers: Option<bool>,
-    /// Light scenes that the sensor can set itself; empty for an opaque gel.
+    /// Lighting scenes that the sensor itself can set; empty for an opaque gel.
     pub scenes: Vec<String>,
-    /// Sensing surface, and its greatest indentation.
+    /// Outline of the sensing surface in top view, with the greatest indentation of this surface.
     pub footprint: Option<Footprint>,
-    /// Greatest indentation, at most the depth of the footprint.
+    /// Greatest allowed indentation, at most the indentation that the footprint states.
     pub depth_max: Option<Millimetre>,
-    /// Greatest force of a press.
+    /// Greatest normal force of a press.
     pub force_max: Option<Newton>,
     /// Pixels of the camera along x and y, before scaling.
     pub camera: Option<[u32; 2]>,
     /// Thickness of the gel.
     pub gel_thickness: Option<Millimetre>,
-    /// Area in the view of the camera, mm².
+    /// Area of the sensing surface in the view of the camera, mm².
     pub field_of_view_mm2: Option<f64>,
-    /// Delay from the capture to the stamp of a frame, ms. A run subtracts this delay from the stamps; 0 needs no correction.
+    /// Delay from the capture of a frame to its time stamp, ms. A run subtracts this delay from the stamps.
     pub latency_ms: Option<f64>,
 }
 
 impl SensorFacts {
-    /// The same facts with another [`frame`](SensorFacts::frame).
+    /// The same facts with the given [`frame`](SensorFacts::frame).
     #[must_use]
     pub fn with_frame(mut self, frame: impl Into<Option<FrameInfo>>) -> SensorFacts {
         self.frame = frame.into();
         self
     }
 
-    /// The same facts with another [`rate`](SensorFacts::rate).
+    /// The same facts with the given [`rate`](SensorFacts::rate).
     #[must_use]
     pub fn with_rate(mut self, rate: impl Into<Option<Hertz>>) -> SensorFacts {
         self.rate = rate.into();
         self
     }
 
-    /// The same facts with another [`opaque`](SensorFacts::opaque).
+    /// The same facts with the given [`opaque`](SensorFacts::opaque).
     #[must_use]
     pub fn with_opaque(mut self, opaque: impl Into<Option<bool>>) -> SensorFacts {
         self.opaque = opaque.into();
         self
     }
 
-    /// The same facts with another [`markers`](SensorFacts::markers).
+    /// The same facts with the given [`markers`](SensorFacts::markers).
     #[must_use]
     pub fn with_markers(mut self, markers: impl Into<Option<bool>>) -> SensorFacts {
         self.markers = markers.into();
         self
     }
 
-    /// The same facts with another [`scenes`](SensorFacts::scenes).
+    /// The same facts with the given [`scenes`](SensorFacts::scenes).
     #[must_use]
     pub fn with_scenes(mut self, scenes: Vec<String>) -> SensorFacts {
         self.scenes = scenes;
         self
     }
 
-    /// The same facts with another [`footprint`](SensorFacts::footprint).
+    /// The same facts with the given [`footprint`](SensorFacts::footprint).
     #[must_use]
     pub fn with_footprint(mut self, footprint: impl Into<Option<Footprint>>) -> SensorFacts {
         self.footprint = footprint.into();
         self
     }
 
-    /// The same facts with another [`depth_max`](SensorFacts::depth_max).
+    /// The same facts with the given [`depth_max`](SensorFacts::depth_max).
     #[must_use]
     pub fn with_depth_max(mut self, depth_max: impl Into<Option<Millimetre>>) -> SensorFacts {
         self.depth_max = depth_max.into();
         self
     }
 
-    /// The same facts with another [`force_max`](SensorFacts::force_max).
+    /// The same facts with the given [`force_max`](SensorFacts::force_max).
     #[must_use]
     pub fn with_force_max(mut self, force_max: impl Into<Option<Newton>>) -> SensorFacts {
         self.force_max = force_max.into();
         self
     }
 
-    /// The same facts with another [`camera`](SensorFacts::camera).
+    /// The same facts with the given [`camera`](SensorFacts::camera).
     #[must_use]
     pub fn with_camera(mut self, camera: impl Into<Option<[u32; 2]>>) -> SensorFacts {
         self.camera = camera.into();
         self
     }
 
-    /// The same facts with another [`gel_thickness`](SensorFacts::gel_thickness).
+    /// The same facts with the given [`gel_thickness`](SensorFacts::gel_thickness).
     #[must_use]
     pub fn with_gel_thickness(
         mut self,
@@ -115,7 +115,7 @@ impl SensorFacts {
         self
     }
 
-    /// The same facts with another [`field_of_view_mm2`](SensorFacts::field_of_view_mm2).
+    /// The same facts with the given [`field_of_view_mm2`](SensorFacts::field_of_view_mm2).
     #[must_use]
     pub fn with_field_of_view_mm2(
         mut self,
@@ -125,14 +125,14 @@ impl SensorFacts {
         self
     }
 
-    /// The same facts with another [`latency_ms`](SensorFacts::latency_ms).
+    /// The same facts with the given [`latency_ms`](SensorFacts::latency_ms).
     #[must_use]
     pub fn with_latency_ms(mut self, latency_ms: impl Into<Option<f64>>) -> SensorFacts {
         self.latency_ms = latency_ms.into();
         self
     }
 
-    /// Greatest indentation: `depth_max`, or else the depth of the footprint.
+    /// Greatest allowed indentation: [`depth_max`](SensorFacts::depth_max), or the indentation that the footprint states.
     pub fn depth_limit(&self) -> Option<Millimetre> {
         let footprint = self.footprint.and_then(|footprint| footprint.depth_max());
         self.depth_max

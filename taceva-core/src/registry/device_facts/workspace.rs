@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::geometry::Point;
 
-/// Box that contains all allowed positions of a tip, faces included, in the sensor's frame. This type gets no further field: two corners define a box.
+/// Box of the allowed positions of a robot's tip, faces included, in the sensor's frame. This type gets no further field: two corners define a box.
 ///
 /// ```
 /// use taceva_core::{Millimetre, Point, Workspace};

@@ -57,7 +57,7 @@ impl Kind {
         }
     }
 
-    /// True if a `value` of this kind can be read.
+    /// True if `value` has this type.
     fn reads<'de, V, E>(self, value: V) -> bool
     where
         V: IntoDeserializer<'de, E>,
@@ -80,7 +80,7 @@ impl Certificate {
     /// Reads the certificate of `instrument` from the entries of its table in a file.
     ///
     /// # Errors
-    /// [`CertificateError`] with the key: an unknown key, all missing keys, a value of another type, or an error of [`check`](Certificate::check).
+    /// [`CertificateError`] for an unknown key, missing keys, a value of another type, or entries that [`check`](Certificate::check) rejects.
     pub fn of_entries<'de, K, V, E>(
         instrument: Instrument,
         entries: &BTreeMap<K, V>,
