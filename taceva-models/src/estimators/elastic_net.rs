@@ -22,8 +22,8 @@ use crate::training::trials::{Trials, rows_of};
 /// Elastic net: minimises ½n⁻¹ Σ (y − b − wᵀx)² + λ (α‖w‖₁ + ½(1 − α)‖w‖²) for each channel. The sum is over n samples with features x and label y. w
 /// are the weights, and α is the setting `mix`. The intercept b is not penalised.
 ///
-/// λ is the strength times λ₀, the least λ at which every weight is 0. The strength of each channel is one of the 25 values 1, 10⁻¹ᐟ⁶ … 10⁻⁴. The
-/// chosen strength has the least squared error on the validation part, or on folds of the training part if there is no validation part.
+/// λ is the strength times the least λ at which every weight is 0. The strength of each channel is one of the 25 values 1, 10⁻¹ᐟ⁶ … 10⁻⁴. The chosen
+/// strength has the least squared error on the validation part, or on folds of the training part if there is no validation part.
 ///
 /// # Reference
 /// H. Zou, T. Hastie, J. R. Stat. Soc. B 67 (2005) 301; J. Friedman, T. Hastie, R. Tibshirani, J. Stat. Softw. 33 (2010) 1, sec. 2.2.

@@ -175,7 +175,8 @@ impl Race<'_> {
     }
 }
 
-/// True if the squared error of `network` on the first fold is smaller than that of `best` by 5 % and by more than `standard_errors` standard errors.
+/// True if `network` is better than `best` on the first fold. Its squared error must be smaller by 5 % and by more than `standard_errors` standard
+/// errors.
 fn is_ahead(network: &Entrant, best: &Entrant, standard_errors: f64) -> bool {
     let excess = best.excess_over(network, 1);
     network.loss(1) < WORTH * best.loss(1) && excess.is_beyond(standard_errors)

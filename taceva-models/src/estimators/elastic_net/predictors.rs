@@ -109,7 +109,7 @@ impl<'a> Residual<'a> {
         residual
     }
 
-    /// Scalar product of the residual with the column of `feature`.
+    /// Scalar product of the residual y − Xw with the column of `feature`.
     pub(super) fn along(&self, feature: usize) -> f64 {
         match &self.predictors.layout {
             Layout::Gram(_) => self.values[feature],
