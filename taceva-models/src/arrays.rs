@@ -47,7 +47,8 @@ pub fn features_of<'a>(matrix: impl Into<CowArray<'a, f32, Ix2>>) -> Result<Feat
 
 /// Fits any estimator to `ndarray` arrays.
 pub trait EstimatorArrays {
-    /// Fits a model that predicts `targets` from `features`, one sample per row. Settings without a value from the user are chosen on the training samples.
+    /// Fits a model that predicts `targets` from `features`, one sample per row. Settings without a value from the user are chosen on the training
+    /// samples.
     ///
     /// # Shapes
     /// `features`: samples × features, copied once. `targets`: samples × channels, in the order of `channels`, copied only if not in standard layout.

@@ -40,8 +40,8 @@ use crate::training::problem::Problem;
 /// the least error is chosen. The baseline is chosen unless this model is better by more than two standard errors. The network replaces this choice
 /// if its squared error on the first fold is smaller by more than two standard errors and by 5 %.
 ///
-/// With `head=classes`, only classifiers are fitted to the training part. The classifier with the fewest wrong labels on the validation part is
-/// chosen.
+/// With `head=classes`, only classifiers are fitted to the training part. The choice is the classifier with the least share of wrong labels on the
+/// validation part, averaged over distinct labels.
 ///
 /// The budget limits work, not time. Its unit is one second of a core that does 10⁹ multiplications per second. A model is tried if its trial and its
 /// final fit do not exceed the remaining budget. Work depends on the numbers of samples, features and channels. The same recording therefore leads to

@@ -39,7 +39,7 @@ const LANDMARKS: SettingInfo = SettingInfo {
     about: "greatest number of landmarks: training samples with which all samples are compared",
 };
 
-/// Candidate kernel lengths, relative to the root mean square distance of a sample from the mean. The longest gives the simplest model.
+/// Candidate kernel lengths, relative to the root mean square distance of a training sample from the mean. The longest gives the simplest model.
 const LENGTHS: [f64; 6] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0];
 
 /// Settings shared by all kernel methods.

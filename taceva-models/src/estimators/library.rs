@@ -1,7 +1,7 @@
 //! Models of other libraries: interface, training data and storage of fitted parameters.
 //!
-//! An adapter implements [`LibraryLearner`] and [`LibraryPredictor`], and registers a [`LibraryModel`]. Checks, scaling of features and labels, choice of
-//! settings, and the model file are the same as for models of this crate.
+//! An adapter implements [`LibraryLearner`] and [`LibraryPredictor`], and registers a [`LibraryModel`]. Checks, scaling of features and labels,
+//! choice of settings, and the model file are the same as for models of this crate.
 
 #[cfg(any(feature = "linfa", feature = "smartcore"))]
 mod adapter;

@@ -38,7 +38,7 @@ pub trait LinearEstimator: Estimator {
 pub struct LinearFit {
     /// Fitted model, in the units of the channels.
     pub regressor: LinearRegressor,
-    /// Chosen setting and validation error of each channel.
+    /// Chosen setting and root mean square error of each channel.
     pub choice: Choice,
     /// Least label and range of labels of each channel in the training part.
     pub scaling: LabelScaling,
@@ -55,7 +55,7 @@ pub struct LinearRegressor {
     bias: Vec<f64>,
 }
 
-/// Name of the tensor of biases. Names are in sorted order.
+/// Name of the tensor that stores the biases.
 const BIAS: &str = "bias";
 const WEIGHTS: &str = "weights";
 

@@ -45,7 +45,8 @@ impl Candidate {
     }
 }
 
-/// Candidates of `models` and `libraries` that can be fitted to `sizes`, the cheapest first. The order counts a tenth of the work of a network.
+/// Candidates of `models` and `libraries` that can be fitted to a part of size `sizes`, the cheapest first. The order counts a tenth of the work of a
+/// network.
 pub(super) fn candidates(
     models: &'static [ModelInfo],
     libraries: &[&'static LibraryModel],

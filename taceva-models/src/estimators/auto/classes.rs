@@ -35,8 +35,8 @@ fn candidates<'a>(
 }
 
 impl Auto {
-    /// Fits each classifier to `training` and chooses the classifier with the fewest errors on `held`. The error is the mean of the wrong shares over
-    /// distinct labels. Of equal errors, the simplest classifier is chosen.
+    /// Fits each classifier to `training` and chooses the classifier with the fewest errors on `held`. The error is the share of wrong predictions
+    /// for each distinct label, averaged over these labels. Of equal errors, the simplest classifier is chosen.
     ///
     /// # Errors
     /// [`ModelError`] without a validation part, if no classifier can be fitted, or if `progress` was cancelled.

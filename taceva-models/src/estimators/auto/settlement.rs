@@ -38,7 +38,8 @@ impl Race<'_> {
         })
     }
 
-    /// Trains the network completely on the first fold, unless the shortened training shows that it is clearly better or too far behind.
+    /// Trains the network completely on the first fold if the budget allows it. Skipped if the shortened training is clearly better or too far
+    /// behind.
     pub(super) fn look_again(&mut self) -> Result<(), ModelError> {
         let Some((look, best)) = self.network.last().zip(self.best()) else {
             return Ok(());
@@ -105,8 +106,8 @@ impl Race<'_> {
         }
     }
 
-    /// Removes models that are clearly worse than the best model. Also removes models no better than a model with a tenth of their work. The baseline is never
-    /// removed, because it costs nothing.
+    /// Removes models that are clearly worse than the best model. Also removes models no better than a model with a tenth of their work. The baseline
+    /// is never removed, because it costs nothing.
     fn thin_out(&mut self) {
         let Some(best) = self.best() else {
             return;
@@ -135,7 +136,8 @@ impl Race<'_> {
         }
     }
 
-    /// Chooses the baseline unless another model is significantly better. Chooses the network if it is significantly better than the best other model.
+    /// Chooses the baseline unless another model is significantly better. Chooses the network if it is significantly better than the best other
+    /// model.
     pub(super) fn settle(&mut self) -> Option<Candidate> {
         let baseline = self.entrants.iter().find(|own| own.name() == ALWAYS[0]);
         let best = self.best().map(|best| {

@@ -127,7 +127,8 @@ fn units(rows: &[usize], of_group: &BTreeMap<usize, usize>) -> Vec<usize> {
     })
 }
 
-/// Variance of a channel's labels; `None` if all labels are equal. Compares the labels, because the rounded mean of equal labels may differ from them.
+/// Variance of a channel's labels; `None` if all labels are equal. Compares the labels, because the rounded mean of equal labels may differ from
+/// them.
 fn variance(targets: Targets<'_>, channel: usize) -> Option<f64> {
     let channels = targets.channels.len();
     let labels = || {

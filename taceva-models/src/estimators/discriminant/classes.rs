@@ -11,7 +11,7 @@ use super::scatter::{Blocks, Scatter, means, whitening};
 ///
 /// A sample with features x gets the class c of least (x − μ_c)ᵀ S*⁻¹ (x − μ_c). μ_c is the mean of class c, and all classes have equal prior
 /// probabilities. S is the covariance within classes. For p features, S* = ρ m I + (1 − ρ) S with m = tr S / p and the identity matrix I. The share ρ
-/// minimises the expected squared error of S*. S* can therefore be inverted even for few samples of many features.
+/// minimises the expected squared error of S* as an estimate of the covariance. S* can therefore be inverted even for few samples of many features.
 ///
 /// # Reference
 /// Fisher (1936) for the discriminant. Ledoit and Wolf (2004), A well-conditioned estimator for large-dimensional covariance matrices,

@@ -17,13 +17,13 @@ pub(super) struct Penalty<'a> {
 /// Maximum number of sweeps over the weights at one strength.
 const SWEEPS: usize = 1000;
 
-/// Convergence threshold: greatest change of predictions in one sweep, divided by the greatest effect that a single weight can have.
+/// Convergence threshold: greatest change of predictions by one weight in a sweep, divided by the greatest effect that a single weight can have.
 const ENOUGH: f64 = 3e-4;
 
 /// Computes the weights at each strength.
 ///
-/// Starts with the strongest penalty. Every other strength starts from the weights of the previous strength. Sweeps over all weights end when the
-/// changes are below `ENOUGH`, or after `SWEEPS` sweeps.
+/// Starts with the strongest penalty. Every other strength starts from the weights of the previous strength. The sweeps at one strength end when no
+/// change exceeds `ENOUGH`, or after `SWEEPS` sweeps.
 pub(super) fn path(
     predictors: &Predictors,
     target: Target<'_>,

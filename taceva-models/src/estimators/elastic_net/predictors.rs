@@ -26,8 +26,8 @@ enum Layout {
 const FEATURES_MAX: usize = 4096;
 
 impl Predictors {
-    /// Chooses [`Columns`](Self::Columns) for fewer than half as many samples as features, or if the Gram matrix is too large. Otherwise chooses the Gram
-    /// matrix.
+    /// Chooses [`Columns`](Self::Columns) for fewer than half as many samples as features, or if the Gram matrix is too large. Otherwise chooses the
+    /// Gram matrix.
     ///
     /// # Errors
     /// [`ModelError`] if there are too many samples and features for either layout, or `progress` was cancelled.

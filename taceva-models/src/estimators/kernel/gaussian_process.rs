@@ -69,8 +69,8 @@ struct Fit {
 }
 
 impl Fit {
-    /// Root mean square error of each channel on the validation part, and a factor for the channel's predictive deviations. Multiplied by it, the
-    /// deviations cover 95 % of the errors.
+    /// Root mean square error of each channel on the validation part, and a factor for the channel's predictive deviations. 95 % of the errors lie
+    /// within 1.96 deviations times this factor.
     fn validated(
         &self,
         problem: &Problem<'_>,

@@ -22,7 +22,7 @@ pub(super) struct Uncertainty {
     pub(super) ratio: Vec<f64>,
     /// Signal variance s² of each channel, in the squared unit of the channel.
     pub(super) signal: Vec<f64>,
-    /// Noise term λ (1 + 1/n) of each channel, with the ratio λ and n training samples.
+    /// Noise term λ (1 + 1/n) of each channel. λ is the value in `ratio`, and n the number of training samples.
     pub(super) noise: Vec<f64>,
 }
 

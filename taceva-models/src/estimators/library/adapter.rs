@@ -53,7 +53,7 @@ pub(crate) fn any(_: &TrainingSet<'_>) -> Result<(), ModelError> {
     Ok(())
 }
 
-/// Accepts channels with a limited number of labels, for the classifier `name`.
+/// Accepts training sets in which each channel has at most `VALUES_MAX` distinct labels, for the classifier `name`.
 pub(crate) fn few_labels(name: &str, training: &TrainingSet<'_>) -> Result<(), ModelError> {
     let channels = training.targets.channels.as_slice();
     for (position, channel) in channels.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! `smartcore/knn` and `smartcore/knn-classifier`: mean or most frequent label of the nearest training samples, weighted by 1 / distance.
+//! `smartcore/knn` and `smartcore/knn-classifier`: mean or majority label of the nearest training samples, weighted by 1 / distance.
 
 use smartcore::algorithm::neighbour::linear_search::LinearKNNSearch;
 use smartcore::metrics::distance::euclidian::Euclidian;
