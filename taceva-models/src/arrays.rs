@@ -1,4 +1,4 @@
-//! Models on arrays of `ndarray`.
+//! Fitting and prediction with arrays of the crate `ndarray`.
 
 use std::borrow::Cow;
 
@@ -45,9 +45,10 @@ pub fn features_of<'a>(matrix: impl Into<CowArray<'a, f32, Ix2>>) -> Result<Feat
     Features::new(FeatureShape::flat(features), values)
 }
 
-/// Fitting on arrays, for every estimator.
+/// Fits any estimator to `ndarray` arrays.
 pub trait EstimatorArrays {
-    /// Fits a model that predicts `targets` from `features`, one sample per row. Settings without a value from the user are chosen on the training samples.
+    /// Fits a model that predicts `targets` from `features`, one sample per row. Settings without a value from the user are chosen on the training
+    /// samples.
     ///
     /// # Shapes
     /// `features`: samples × features, copied once. `targets`: samples × channels, in the order of `channels`, copied only if not in standard layout.
@@ -105,7 +106,7 @@ impl<E: ModelEstimator + ?Sized> EstimatorArrays for E {
     }
 }
 
-/// Prediction of arrays, for every fitted model.
+/// Predicts `ndarray` arrays with any fitted model.
 pub trait RegressorArrays {
     /// Predicts all samples of `features`.
     ///

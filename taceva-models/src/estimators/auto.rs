@@ -1,4 +1,4 @@
-//! Selection of the model with the least error on held-out samples, within a budget of work.
+//! Selects the model with the least error on held-out samples, within a limit on computing work.
 
 mod candidates;
 mod classes;
@@ -31,24 +31,25 @@ use crate::training::problem::Problem;
 
 /// Tries models, the cheapest first, and chooses one.
 ///
-/// The training part is divided into five folds of whole groups, or of runs of neighbouring samples. A trial learns from three folds, chooses
-/// settings on the fourth and computes its error on the fifth. All models are tried on the first fold. The small network first trains for a quarter
-/// of its epochs, and for all epochs if the comparison is open. If the network is clearly ahead, it is chosen, and costlier models are not tried.
+/// The training part is divided into five folds of whole groups, or of consecutive samples. A trial learns from three folds, chooses settings on the
+/// fourth and computes its error on the fifth. All models are tried on the first fold. The small network first trains for a quarter of its epochs,
+/// and for all epochs if this training decides nothing. If the network is clearly ahead, it is chosen, and costlier models are not tried.
 ///
-/// Otherwise the other models continue to the next fold. A model drops out if the best model is ahead by three standard errors of the difference,
-/// computed by group. It also drops out if another model is as good with a tenth of the work. Of the remaining models, the model with the least error
-/// is chosen. The baseline is chosen unless this model is better by more than two standard errors. The network replaces this choice if it is better
-/// on the first fold, by more than two standard errors and a twentieth of the squared error.
+/// Otherwise the other models continue to the next fold. A model drops out if the best model is ahead by three standard errors of the mean difference
+/// over groups or runs. It also drops out if a model with less than a tenth of its work has no greater error. Of the remaining models, the model with
+/// the least error is chosen. The baseline is chosen unless this model is better by more than two standard errors. The network replaces this choice
+/// if its squared error on the first fold is smaller by more than two standard errors and by 5 %.
 ///
-/// With `head=classes`, classifiers are fitted to the training part, and the classifier that predicts the validation part best is chosen.
+/// With `head=classes`, only classifiers are fitted to the training part. The choice is the classifier with the least share of wrong labels on the
+/// validation part, averaged over distinct labels.
 ///
-/// The budget counts work, not time: seconds of a core with 10⁹ multiplications per second. A model is tried if its trial and its final fit do not
-/// exceed the remaining budget. Work depends on the numbers of samples, features and channels. The same recording therefore leads to the same choice
-/// on every machine, under any load and with any number of threads. Baseline and ridge are always tried.
+/// The budget limits work, not time. Its unit is one second of a core that does 10⁹ multiplications per second. A model is tried if its trial and its
+/// final fit do not exceed the remaining budget. Work depends on the numbers of samples, features and channels. The same recording therefore leads to
+/// the same choice on every machine, under any load and with any number of threads. Baseline and ridge are always tried.
 #[derive(Clone, Debug)]
 pub struct Auto {
     budget_s: f64,
-    /// True to choose among classifiers, by the validation part.
+    /// True if only classifiers are candidates. The validation part then decides.
     predicts_classes: bool,
     /// Library models to try in addition to the models of this crate.
     libraries: Vec<&'static LibraryModel>,
@@ -67,7 +68,7 @@ const BUDGET: SettingInfo = SettingInfo {
 };
 
 impl Auto {
-    /// Registry entry.
+    /// Registry entry of the model `auto`.
     pub const INFO: ModelInfo = ModelInfo {
         name: "auto",
         about: "the best of the other models on held-out samples, residual networks excluded, within a budget of work",
@@ -122,7 +123,7 @@ impl Auto {
         })
     }
 
-    /// Features of networks, on a finer grid than other models; used for large enough frames if the user requests no grid.
+    /// Features for networks, on a finer grid than the features of other models. Used for large enough frames, unless the user sets a grid.
     pub(crate) const CLOSER: Option<FeatureSpec> = NetworkEstimator::CNN.features;
 }
 

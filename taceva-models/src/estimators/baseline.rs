@@ -15,7 +15,7 @@ use crate::training::problem::Problem;
 pub struct Baseline;
 
 impl Baseline {
-    /// Registry entry.
+    /// Registry entry of the model `baseline`.
     pub const INFO: ModelInfo = ModelInfo {
         name: "baseline",
         about: "predicts the mean of the training part: every other model should have a smaller error",

@@ -1,4 +1,4 @@
-//! Linear discriminants: predict each channel as one of its training labels.
+//! Linear discriminants: the prediction for each channel is one of its training labels.
 
 mod classes;
 mod regressor;
@@ -23,11 +23,11 @@ use crate::training::info::ModelInfo;
 use crate::training::problem::Problem;
 use crate::training::regressor::ModelRegressor;
 
-/// Linear discriminants: predict each channel as one of its training values. Features are whitened by the scatter of samples with equal value. The prediction
-/// is the value with the nearest mean ([`Discriminant`]).
+/// Linear discriminants: the prediction for each channel is one of its training labels. Features are whitened by the covariance of samples within
+/// labels. The predicted label has the nearest mean of features ([`Discriminant`]).
 ///
-/// Suitable for channels with few distinct labels, such as the number of a board. A channel with more than 256 values is rejected. No setting is
-/// chosen, so the validation part is only used to compute an error.
+/// Suitable for channels with few distinct labels, such as the spacing of a grating. A channel with more than 256 labels is rejected. No setting is
+/// chosen, so the validation part only serves to compute an error.
 ///
 /// # Reference
 /// R. A. Fisher, Ann. Eugen. 7 (1936) 179; O. Ledoit, M. Wolf, J. Multivar. Anal. 88 (2004) 365, eqs. 9-14.
@@ -36,14 +36,14 @@ pub struct LinearDiscriminant {
     scale: FeatureScale,
 }
 
-/// Maximum number of classes of a channel.
+/// Maximum number of distinct labels of a channel.
 pub(crate) const VALUES_MAX: usize = 256;
 
 /// Maximum number of features of a covariance matrix, which then takes 134 MB.
 const FEATURES_MAX: usize = 4096;
 
 impl LinearDiscriminant {
-    /// Registry entry.
+    /// Registry entry of the model of linear discriminants.
     pub const INFO: ModelInfo = ModelInfo {
         name: "lda",
         about: "linear discriminants: predicts one of the labels of the training part, for kinds, boards and levels",

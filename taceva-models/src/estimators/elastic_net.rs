@@ -19,11 +19,11 @@ use crate::training::info::ModelInfo;
 use crate::training::problem::{Problem, centred};
 use crate::training::trials::{Trials, rows_of};
 
-/// Elastic net: minimises ½n⁻¹ Σ (y − b − wᵀx)² + λ (α‖w‖₁ + ½(1 − α)‖w‖²) for each channel. The sum is over n samples with features x and label y,
-/// and α is the setting `mix`. The intercept b is not penalised.
+/// Elastic net: minimises ½n⁻¹ Σ (y − b − wᵀx)² + λ (α‖w‖₁ + ½(1 − α)‖w‖²) for each channel. The sum is over n samples with features x and label y. w
+/// are the weights, and α is the setting `mix`. The intercept b is not penalised.
 ///
-/// λ is the strength × the least λ at which every weight is 0. The strength of each channel is one of the 25 values 1, 10⁻¹ᐟ⁶ … 10⁻⁴. The chosen strength has
-/// the least squared error on the validation part, or on folds of the training part if there is no validation part.
+/// λ is the strength times the least λ at which every weight is 0. The strength of each channel is one of the 25 values 1, 10⁻¹ᐟ⁶ … 10⁻⁴. The chosen
+/// strength has the least squared error on the validation part, or on folds of the training part if there is no validation part.
 ///
 /// # Reference
 /// H. Zou, T. Hastie, J. R. Stat. Soc. B 67 (2005) 301; J. Friedman, T. Hastie, R. Tibshirani, J. Stat. Softw. 33 (2010) 1, sec. 2.2.
@@ -48,11 +48,11 @@ const MIX: SettingInfo = SettingInfo {
     about: "the share of the penalty on absolute values instead of squares: 1 is the lasso",
 };
 
-/// Weights of one channel at each strength.
+/// Weights of one channel, `[strengths][features]`.
 type Path = Vec<Vec<f64>>;
 
 impl ElasticNet {
-    /// Registry entry.
+    /// Registry entry of the elastic net.
     pub const INFO: ModelInfo = ModelInfo {
         name: "elastic-net",
         about: "least squares that leaves most weights at 0: shows which pixels matter",
@@ -76,7 +76,7 @@ impl ElasticNet {
         })
     }
 
-    /// Candidate strengths, ascending. Of strengths with equal errors, the last and strongest strength is chosen.
+    /// Candidate strengths of the penalty, ascending. Of strengths with equal errors, the greatest is chosen.
     fn strengths(&self) -> Vec<f64> {
         let grid = || {
             (0..=24)
@@ -86,7 +86,7 @@ impl ElasticNet {
         self.strength.map_or_else(grid, |strength| vec![strength])
     }
 
-    /// Returns the mean label of each channel, and the weights of every channel at every strength.
+    /// Returns the mean label of each channel, and the weights of each channel at each strength of the penalty.
     fn solve(
         &self,
         design: &Design<'_>,

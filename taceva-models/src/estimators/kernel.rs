@@ -1,8 +1,9 @@
-//! Kernel models: compare a sample with landmarks, which are chosen training samples, by exp(−‖x − x'‖² / 2ℓ²D).
+//! Kernel models: compare the features x of a sample with the features x' of landmarks by exp(−‖x − x'‖² / 2ℓ²D). Landmarks are selected training
+//! samples, and ℓ is the kernel length.
 //!
-//! D is the summed variance of the features over the training part. A length ℓ therefore has the same meaning for bright and dark pictures, and for many and
-//! few features. Nyström's form on landmarks replaces a kernel of all training samples. Every linear method of this crate can be fitted to Nyström features.
-//! Ridge regression on Nyström features is kernel ridge regression.
+//! D is the variance over the training part, summed over features. A length ℓ therefore has the same meaning for bright and dark pictures, and for
+//! many and few features. The Nyström approximation with landmarks replaces a kernel of all training samples. Every linear method of this crate can
+//! be fitted to Nyström features. Ridge regression on Nyström features is kernel ridge regression.
 
 mod gaussian_process;
 mod landmarks;
@@ -38,7 +39,7 @@ const LANDMARKS: SettingInfo = SettingInfo {
     about: "greatest number of landmarks: training samples with which all samples are compared",
 };
 
-/// Candidate kernel lengths, in typical distances of a sample from the mean, the simplest last.
+/// Candidate kernel lengths, relative to the root mean square distance of a training sample from the mean. The longest gives the simplest model.
 const LENGTHS: [f64; 6] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0];
 
 /// Settings shared by all kernel methods.
@@ -50,7 +51,7 @@ struct Kernel {
 }
 
 impl Kernel {
-    /// Settings in the registry.
+    /// Settings that every kernel method lists in the registry.
     const SETTINGS: &'static [SettingInfo] =
         &[FeatureScale::SETTING, LENGTH, LANDMARKS, SettingInfo::REFIT];
 
@@ -76,7 +77,7 @@ impl Kernel {
     }
 }
 
-/// Samples of training and validation part, mapped by a kernel of one length.
+/// Nyström features of training and validation part, for one kernel length.
 struct Mapped {
     map: Nystrom,
     training: Features,

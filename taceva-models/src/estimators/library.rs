@@ -1,7 +1,7 @@
 //! Models of other libraries: interface, training data and storage of fitted parameters.
 //!
-//! An adapter implements [`LibraryLearner`] and [`LibraryPredictor`], and registers a [`LibraryModel`]. Checks, scaling of features and labels, choice of
-//! settings, and the model file are the same as for models of this crate.
+//! An adapter implements [`LibraryLearner`] and [`LibraryPredictor`], and registers a [`LibraryModel`]. Checks, scaling of features and labels,
+//! choice of settings, and the model file are the same as for models of this crate.
 
 #[cfg(any(feature = "linfa", feature = "smartcore"))]
 mod adapter;
@@ -42,7 +42,7 @@ use crate::training::info::ModelInfo;
 /// Names of supported libraries. Each library is a Cargo feature of the same name.
 pub(crate) const LIBRARIES: [&str; 2] = ["linfa", "smartcore"];
 
-/// Library of the model `name`: the part before `/`. `None` if this part is not a supported library.
+/// Name of the library that provides the model `name`: the part before `/`. `None` if this part is not a supported library.
 pub(crate) fn library_of(name: &str) -> Option<&'static str> {
     let (library, _) = name.split_once('/')?;
     LIBRARIES.into_iter().find(|known| *known == library)
@@ -74,9 +74,9 @@ pub struct LibraryModel {
     pub info: ModelInfo,
     /// Release of the library, such as `linfa 0.8.1`.
     pub release: &'static str,
-    /// Number of multiplications of one fit with default settings, for `auto`; `None` if these sizes are not supported.
+    /// Number of multiplications of one fit with default settings, for the model `auto`. `None` if the sizes are not supported.
     pub(crate) work: fn(LibrarySizes) -> Option<f64>,
-    /// Loads the fitted parameters of a model of these sizes from a file.
+    /// Builds the fitted model from the tensors of a file and its sizes.
     ///
     /// Returns [`ModelError`] if a tensor is missing or a number is out of range, as in damaged files.
     pub(crate) load: fn(&LibraryTensors<'_>, LibrarySizes) -> LoadedPredictor,
@@ -90,7 +90,8 @@ pub(crate) trait LibraryLearner: Send + Sync {
     /// Values of the settings shared by all library models.
     fn settings(&self) -> LibrarySettings;
 
-    /// Name and candidate values of the setting chosen by held-out error, simplest last. One value if the user set it; `None` if the model has no such setting.
+    /// Name and candidate values of the setting that is chosen by held-out error. The value of the simplest model comes last. Contains one value if
+    /// the user set it; `None` if the model has no such setting.
     fn candidates(&self) -> Option<(&'static str, Vec<f64>)> {
         None
     }
@@ -117,7 +118,7 @@ pub(crate) trait LibraryLearner: Send + Sync {
 }
 
 impl LibraryModel {
-    /// Card entry of the library, for models fitted by the library.
+    /// Entry of the model card for the library that fitted the model.
     pub(crate) fn card(&self) -> LibraryCard {
         let (library, _) = self.info.name.split_once('/').unwrap_or_default();
         LibraryCard {
@@ -128,7 +129,7 @@ impl LibraryModel {
 }
 
 impl ModelInfo {
-    /// Registry entry of a library model. Default features are gray pictures of 32 × 32.
+    /// Builds the registry entry of a library model. The default features are gray pictures of 32 × 32 pixels.
     pub(crate) const fn of_library(
         name: &'static str,
         about: &'static str,

@@ -19,9 +19,9 @@ use crate::training::output::{check_call, check_finite};
 use crate::training::problem::Problem;
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// An estimator that fits a linear regressor and reports the choice of its settings.
+/// Estimator that fits a linear regressor and reports how its settings were chosen.
 pub trait LinearEstimator: Estimator {
-    /// Fits like [`Estimator::fit`].
+    /// Fits a linear regressor with the same rules as [`Estimator::fit`].
     ///
     /// # Errors
     /// Errors of [`Estimator::fit`].
@@ -38,9 +38,9 @@ pub trait LinearEstimator: Estimator {
 pub struct LinearFit {
     /// Fitted model, in the units of the channels.
     pub regressor: LinearRegressor,
-    /// Chosen setting and error of each channel.
+    /// Chosen setting and root mean square error of each channel.
     pub choice: Choice,
-    /// Label ranges of the training part.
+    /// Least label and range of labels of each channel in the training part.
     pub scaling: LabelScaling,
     /// True if the model was refitted on training and validation parts with the chosen settings.
     pub refitted: bool,
@@ -55,7 +55,7 @@ pub struct LinearRegressor {
     bias: Vec<f64>,
 }
 
-/// Tensor names, in sorted order.
+/// Name of the tensor that stores the biases.
 const BIAS: &str = "bias";
 const WEIGHTS: &str = "weights";
 
@@ -102,7 +102,8 @@ impl LinearRegressor {
         })
     }
 
-    /// Builds a regressor in label units from `weights` of the centred features of `design` and the `mean` of scaled labels.
+    /// Builds a regressor that predicts in the units of the channels. `weights` are for the centred features of `design`, and `mean` is the mean of
+    /// the scaled labels.
     pub(crate) fn from_scaled(
         problem: &Problem<'_>,
         design: &Design<'_>,
@@ -113,7 +114,7 @@ impl LinearRegressor {
         LinearRegressor::of_design(problem, shape, design, weights, mean)
     }
 
-    /// Like [`from_scaled`](Self::from_scaled), but for mapped features such as Nyström features.
+    /// Like [`from_scaled`](Self::from_scaled), but for features that were computed from other features, such as Nyström features.
     pub(crate) fn from_mapped(
         problem: &Problem<'_>,
         design: &Design<'_>,
@@ -170,7 +171,7 @@ impl LinearRegressor {
         Ok(ModelRegressor::new(own))
     }
 
-    /// Weights of each channel.
+    /// Weights of each channel: unit of the channel per unit of the feature.
     ///
     /// # Shapes
     /// `[channels, features]`.

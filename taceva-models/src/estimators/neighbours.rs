@@ -23,9 +23,9 @@ use crate::training::trials::{Trials, rows_of};
 
 /// k nearest neighbours: predicts the mean label of the k nearest training samples, weighted by 1 / distance.
 ///
-/// Samples at the same distance as the k-th sample are included. If a sample equals training samples, only these training samples count. The k of each channel
-/// is one of 1, 2, 3, 5, 8, 13, 21, 34. The chosen k has the least squared error on the validation part, or on folds of the training part if there is no
-/// validation part.
+/// Training samples at the same distance as the k-th neighbour are included. If training samples have distance 0, only their labels are averaged. The
+/// k of each channel is one of 1, 2, 3, 5, 8, 13, 21, 34. The chosen k has the least squared error on the validation part, or on folds of the
+/// training part if there is no validation part.
 ///
 /// # Reference
 /// T. M. Cover, P. E. Hart, IEEE Trans. Inf. Theory 13 (1967) 21; D. Shepard, ACM Nat. Conf. 23 (1968) 517 (weights).
@@ -47,7 +47,7 @@ const COUNT: SettingInfo = SettingInfo {
 const COUNTS: [usize; 8] = [1, 2, 3, 5, 8, 13, 21, 34];
 
 impl Neighbours {
-    /// Registry entry.
+    /// Registry entry of the nearest-neighbour model.
     pub const INFO: ModelInfo = ModelInfo {
         name: "knn",
         about: "the mean of the most similar training samples: assumes nothing and never extrapolates",
@@ -71,7 +71,7 @@ impl Neighbours {
     }
 }
 
-/// Summed squared errors on held-out samples, for each number of neighbours (outer) and each channel (inner).
+/// Squared errors summed over held-out samples, `[counts][channels]`.
 fn squares(
     learnt: &[f32],
     labels: &Mat<f64>,

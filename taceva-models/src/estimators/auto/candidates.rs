@@ -4,18 +4,18 @@ use super::cost::{DEEPER, NETWORK, Sizes, seconds, work};
 use crate::estimators::library::LibraryModel;
 use crate::training::info::ModelInfo;
 
-/// Share of the epochs in the first, shortened training of a network.
+/// Fraction of the epochs that the first, shortened training of a network runs.
 pub(super) const LOOK: f64 = 0.25;
-/// Factor by which a network's work is multiplied for the trial order. Networks are tried early, because they learn from whole pictures.
+/// Factor applied to a network's work when candidates are sorted. Networks are tried early, because they learn from whole pictures.
 const EARLIER: f64 = 0.1;
 
 /// A model to try.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Candidate {
     pub(super) info: &'static ModelInfo,
-    /// Work of one fold, in seconds of the budget. For a network, the work of its whole training.
+    /// Estimated work of one trial on one fold, in s at 10⁹ multiplications per second. For a network, with all its epochs.
     pub(super) fold_s: f64,
-    /// Work of the final fit, in seconds of the budget.
+    /// Estimated work of the final fit, in s at 10⁹ multiplications per second.
     pub(super) fit_s: f64,
 }
 
@@ -29,7 +29,7 @@ impl Candidate {
         DEEPER.contains(&self.info.name)
     }
 
-    /// Work of the first fold, in seconds of the budget.
+    /// Estimated work of the trial on the first fold, in s at 10⁹ multiplications per second.
     pub(super) fn first_s(&self) -> f64 {
         match self.is_network() {
             true => LOOK * self.fold_s,
@@ -45,7 +45,8 @@ impl Candidate {
     }
 }
 
-/// Models of `models` and `libraries` that support a training part of these sizes, the cheapest first. A network counts with a tenth of its work.
+/// Candidates of `models` and `libraries` that can be fitted to a part of size `sizes`, the cheapest first. The order counts a tenth of the work of a
+/// network.
 pub(super) fn candidates(
     models: &'static [ModelInfo],
     libraries: &[&'static LibraryModel],

@@ -20,7 +20,7 @@ pub(super) const HEAD: SettingInfo = SettingInfo {
     about: "classes chooses among models that predict one of the training labels, by the validation part",
 };
 
-/// Classifiers of libraries that are tried.
+/// Names of the library classifiers among the candidates.
 const OF_LIBRARIES: [&str; 2] = ["linfa/logistic", "smartcore/knn-classifier"];
 
 /// Classifiers to try, the simplest first.
@@ -35,8 +35,8 @@ fn candidates<'a>(
 }
 
 impl Auto {
-    /// Fits each classifier to `training` and takes the classifier with the smallest share of wrong samples of `held`, averaged over its labels.
-    /// Takes the simplest of several with equal shares.
+    /// Fits each classifier to `training` and chooses the classifier with the fewest errors on `held`. The error is the share of wrong predictions
+    /// for each distinct label, averaged over these labels. Of equal errors, the simplest classifier is chosen.
     ///
     /// # Errors
     /// [`ModelError`] without a validation part, if no classifier can be fitted, or if `progress` was cancelled.
@@ -113,7 +113,7 @@ fn not_fitted(info: &ModelInfo, reason: String) -> Untried {
     }
 }
 
-/// Share of the samples of `set` whose label is not predicted, averaged over labels.
+/// Share of wrong predictions for each distinct label in `set`, averaged over these labels.
 fn wrong_share(regressor: &dyn Regressor, set: &TrainingSet<'_>) -> Result<f64, ModelError> {
     let labels = set.targets.values;
     let mut found = vec![0.0; labels.len()];

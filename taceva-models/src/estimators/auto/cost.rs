@@ -1,4 +1,4 @@
-//! Work of trying and fitting a model, computed only from the sizes of a recording.
+//! Estimated work of trials and fits of a model, from the numbers of samples, features and channels only.
 
 use crate::estimators::library::LibrarySizes;
 use taceva_core::whole_size;
@@ -14,7 +14,7 @@ pub(super) struct Sizes {
 }
 
 impl Sizes {
-    /// Sizes of a part with the share `share` of the samples.
+    /// Sizes of a part that contains the fraction `share` of the samples.
     pub(super) fn share(self, share: f64) -> Sizes {
         Sizes {
             samples: share * self.samples,
@@ -31,21 +31,21 @@ impl Sizes {
     }
 }
 
-/// Number of multiplications per second of the budget.
+/// Number of multiplications that count as one second of work.
 const RATE: f64 = 1e9;
 
 /// Name of the small network; `DEEPER` names the residual networks.
 pub(super) const NETWORK: &str = "cnn";
 pub(super) const DEEPER: [&str; 3] = ["resnet10", "resnet18", "resnet34"];
 
-/// Converts multiplications to seconds of the budget.
+/// Converts a number of multiplications to seconds of work.
 pub(super) fn seconds(work: f64) -> f64 {
     work / RATE
 }
 
 /// Number of multiplications of one fit of the model `name` with default settings; `None` if the model cannot be fitted.
 ///
-/// Leading terms of the work of each fit. Their factors make one second of the budget about one processor second as measured in docs/models.md.
+/// Each estimate is the leading term of the work, with a measured factor. One second of work takes about one processor second (docs/models.md).
 pub(super) fn work(name: &str, sizes: Sizes) -> Option<f64> {
     let Sizes {
         samples,

@@ -9,13 +9,13 @@ use crate::training::fit::ModelEstimator;
 pub(super) struct Entrant {
     pub(super) candidate: Candidate,
     pub(super) estimator: Box<dyn ModelEstimator>,
-    /// Loss of each unit (inner) of each fold (outer). A unit is a group or a run of samples.
+    /// Normalised squared errors, `[folds][units]`. A unit is a group, or a run of consecutive samples.
     pub(super) losses: Vec<Vec<f64>>,
-    /// Work spent on trials of the model, in seconds of the budget.
+    /// Work of all trials of the model so far, in s at 10⁹ multiplications per second.
     pub(super) spent_s: f64,
-    /// Completed share of the training; `None` for a complete training.
+    /// Fraction of the epochs in a shortened training; `None` for a complete training.
     pub(super) share: Option<f64>,
-    /// Reason why the model left the race; `None` while the model is a candidate.
+    /// Reason why the model was dropped; `None` while the model is a candidate.
     pub(super) left: Option<String>,
 }
 
@@ -24,12 +24,12 @@ impl Entrant {
         self.candidate.info.name
     }
 
-    /// Mean loss on the first `folds` folds.
+    /// Mean loss over all units of the first `folds` folds.
     pub(super) fn loss(&self, folds: usize) -> f64 {
         mean(&self.losses[..folds].concat())
     }
 
-    /// Mean difference between the losses of this model and the losses of `other` on the first `folds` folds.
+    /// Difference between the losses of this model and of `other`: mean over all units of the first `folds` folds.
     pub(super) fn excess_over(&self, other: &Entrant, folds: usize) -> Excess {
         Excess::of(
             &self.losses[..folds].concat(),

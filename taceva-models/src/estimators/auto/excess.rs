@@ -1,21 +1,21 @@
 //! Comparison of two models by their losses on the same units, which are groups or runs of samples.
 
-/// Number of standard errors of a difference above which a model is clearly better. By chance, the best of a dozen models is two standard errors ahead of the
-/// simplest.
+/// Number of standard errors of a difference above which a model is clearly better. The best of a dozen equal models is often two standard errors
+/// ahead by chance.
 pub(super) const CLEARLY: f64 = 3.0;
-/// Number of standard errors of a difference above which a network replaces the best other model, or this model replaces the baseline.
+/// Number of standard errors by which a network must be better than the best other model, or that model better than the baseline.
 pub(super) const BEYOND_CHANCE: f64 = 2.0;
 
-/// Mean difference of the losses of two models over units.
+/// Mean difference between the losses of two models, over groups or runs of samples.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Excess {
     mean: f64,
-    /// Standard error of the mean. Infinite for fewer than two units, so that no difference is significant.
+    /// Standard error of the mean; infinite for fewer than two differences.
     standard_error: f64,
 }
 
 impl Excess {
-    /// Difference between `losses` and `others`, unit by unit.
+    /// Computes the mean and standard error of the differences `losses` − `others`.
     pub(super) fn of(losses: &[f64], others: &[f64]) -> Excess {
         let differences = losses.iter().zip(others).map(|(own, other)| own - other);
         let differences: Vec<f64> = differences.collect();
@@ -31,7 +31,7 @@ impl Excess {
         }
     }
 
-    /// True if the mean exceeds `standard_errors` standard errors.
+    /// True if the mean difference is greater than `standard_errors` times its standard error.
     pub(super) fn is_beyond(self, standard_errors: f64) -> bool {
         self.standard_error.is_finite() && self.mean > standard_errors * self.standard_error
     }

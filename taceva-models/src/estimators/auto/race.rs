@@ -1,4 +1,4 @@
-//! First fold of the race: tries every model with an acceptable amount of work.
+//! Comparison of models on the first fold. Every model whose work fits the budget is tried.
 
 use taceva_core::{ModelError, Progress, TrainingSet};
 
@@ -15,28 +15,28 @@ use crate::training::info::ModelInfo;
 /// Models tried regardless of the budget.
 pub(super) const ALWAYS: [&str; 2] = ["baseline", "ridge"];
 
-/// Unfitted model with default settings. The inner error is the reason why the model does not support the features.
+/// Unfitted model with default settings, or a [`FeatureError`] if the model does not support the features. Other failures are a [`ModelError`].
 pub(super) type Made = Result<Result<Box<dyn ModelEstimator>, FeatureError>, ModelError>;
 
-/// Race of models on the folds of one training part.
+/// State of the comparison of models on the folds of one training part.
 pub(super) struct Race<'a> {
-    /// Budget for trials and the final fit, in s.
+    /// Limit on the work of all trials and the final fit, in s at 10⁹ multiplications per second.
     pub(super) budget_s: f64,
     pub(super) make: &'a dyn Fn(&ModelInfo) -> Made,
     pub(super) folds: Folds,
-    /// Training part, with features for networks and with features for other models.
+    /// Training part with features for networks. `training` has the features for other models.
     pub(super) pictures: TrainingSet<'a>,
     pub(super) training: TrainingSet<'a>,
     pub(super) progress: &'a dyn Progress,
     pub(super) spent_s: f64,
     pub(super) entrants: Vec<Entrant>,
-    /// Shortened training of the network, and its complete training if the shortened training was not decisive.
+    /// Results of the shortened training of the network, and of its complete training if that was needed.
     pub(super) network: Vec<Entrant>,
     pub(super) untried: Vec<Untried>,
 }
 
 impl Race<'_> {
-    /// Runs the race. Returns the winner and its record for the model card.
+    /// Compares `candidates`. Returns the chosen model and its record for the model card.
     pub(super) fn run(
         mut self,
         candidates: Vec<Candidate>,
@@ -94,7 +94,7 @@ impl Race<'_> {
         });
     }
 
-    /// Tries a model on the first fold. A network trains only a share of its epochs.
+    /// Tries a model on the first fold. A network trains only the fraction `LOOK` of its epochs.
     fn enter(&mut self, candidate: Candidate) -> Result<(), ModelError> {
         let estimator = match (self.make)(candidate.info)? {
             Ok(estimator) => estimator,

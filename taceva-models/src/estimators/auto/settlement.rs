@@ -9,9 +9,9 @@ use super::race::{ALWAYS, Race};
 use crate::linalg::progress::interrupted;
 use crate::training::card::{AutoCard, FOLDS};
 
-/// Smallest ratio assumed between a network's squared error after complete training and after the shortened training.
+/// Assumed smallest ratio of the squared error of a network after complete training to its error after shortened training.
 const GRANTED: f64 = 0.5;
-/// Ratio of squared errors, network to best other model, below which the network justifies its work.
+/// Ratio of the squared error of a network to that of the best other model, below which the network can be chosen.
 const WORTH: f64 = 0.95;
 /// Ratio of the work of two models above which the costlier model must have a smaller error.
 const DEARER: f64 = 10.0;
@@ -38,7 +38,8 @@ impl Race<'_> {
         })
     }
 
-    /// Trains the network completely on the first fold, unless its shortened training was decisive.
+    /// Trains the network completely on the first fold if the budget allows it. Skipped if the shortened training is clearly better or too far
+    /// behind.
     pub(super) fn look_again(&mut self) -> Result<(), ModelError> {
         let Some((look, best)) = self.network.last().zip(self.best()) else {
             return Ok(());
@@ -105,8 +106,8 @@ impl Race<'_> {
         }
     }
 
-    /// Removes models that are clearly worse than the best model. Also removes models no better than a model with a tenth of their work. The baseline is never
-    /// removed, because it costs nothing.
+    /// Removes models that are clearly worse than the best model. Also removes models no better than a model with a tenth of their work. The baseline
+    /// is never removed, because it costs nothing.
     fn thin_out(&mut self) {
         let Some(best) = self.best() else {
             return;
@@ -135,7 +136,8 @@ impl Race<'_> {
         }
     }
 
-    /// Chooses the baseline unless another model is significantly better. Chooses the network if it is significantly better than the best other model.
+    /// Chooses the baseline unless another model is significantly better. Chooses the network if it is significantly better than the best other
+    /// model.
     pub(super) fn settle(&mut self) -> Option<Candidate> {
         let baseline = self.entrants.iter().find(|own| own.name() == ALWAYS[0]);
         let best = self.best().map(|best| {
@@ -175,7 +177,8 @@ impl Race<'_> {
     }
 }
 
-/// True if a network is better than `best` on the first fold, by more than `standard_errors` standard errors, and by enough to justify its work.
+/// True if `network` is better than `best` on the first fold. Its squared error must be smaller by 5 % and by more than `standard_errors` standard
+/// errors.
 fn is_ahead(network: &Entrant, best: &Entrant, standard_errors: f64) -> bool {
     let excess = best.excess_over(network, 1);
     network.loss(1) < WORTH * best.loss(1) && excess.is_beyond(standard_errors)
@@ -188,7 +191,7 @@ mod tests {
     use crate::settings::ModelSettings;
     use crate::training::card::Untried;
 
-    /// Test model with `losses` on the units of the first fold. One fold takes `fold_s` s of work.
+    /// Builds a test model with `losses` on the units of the first fold. A trial on one fold takes `fold_s` s of work.
     fn entrant(name: &str, fold_s: f64, losses: [f64; 4]) -> Entrant {
         let info = find(name).expect("registered");
         let estimator = info.estimator(&ModelSettings::default());
@@ -206,7 +209,7 @@ mod tests {
         }
     }
 
-    /// Test race after the first fold, with `entrants` and the trainings of the network. Calls `then` with the race.
+    /// Builds a comparison after the first fold, with `entrants` and the trainings in `network`, and passes it to `then`.
     fn race_of(entrants: Vec<Entrant>, network: Vec<Entrant>, then: impl FnOnce(&mut Race<'_>)) {
         let samples = 8_u8;
         let shape = taceva_core::FeatureShape::flat(1);

@@ -1,4 +1,4 @@
-//! Cross-validation on five folds, each scored by a model fitted without it.
+//! Cross-validation on five folds. Each fold is predicted by a model that was fitted to other folds.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use taceva_core::{ErrorKind, Features, ModelError, Progress, Regressor, Targets,
 use crate::training::card::FOLDS;
 use crate::training::fit::ModelEstimator;
 
-/// Minimum number of groups per fold; with fewer groups, losses are computed by run of samples.
+/// Minimum number of groups per fold. With fewer groups, a loss is computed for each run of consecutive samples.
 const GROUPS_LEAST: usize = 3;
 /// Number of runs of neighbouring samples in a fold with too few groups. Each run is one unit.
 const RUNS: usize = 10;
@@ -16,16 +16,16 @@ const RUNS: usize = 10;
 #[derive(Debug)]
 pub(super) struct Folds {
     rows: Vec<Vec<usize>>,
-    /// Unit of each row, counted from 0 in each fold.
+    /// Unit number of each row, `[folds][rows]`. Each fold numbers its units from 0.
     units: Vec<Vec<usize>>,
-    /// Variance of the labels of each channel, which normalises squared errors; `None` if all labels of the channel are equal.
+    /// Variance of the labels of each channel over the training part, by which squared errors are divided. `None` if all labels are equal.
     variances: Vec<Option<f64>>,
     /// True if a group is never divided between folds.
     pub(super) by_group: bool,
 }
 
 impl Folds {
-    /// Assigns whole groups to folds in turn if there are at least as many groups as folds. Otherwise assigns runs of neighbouring samples.
+    /// Deals whole groups to the folds in turn if there are at least as many groups as folds. Otherwise, each fold is one run of consecutive samples.
     pub(super) fn new(training: &TrainingSet<'_>, groups: Option<Vec<Vec<usize>>>) -> Folds {
         let groups = groups.filter(|groups| groups.len() >= FOLDS);
         let by_group = groups.is_some();
@@ -57,8 +57,8 @@ impl Folds {
         }
     }
 
-    /// Loss of each unit of a fold. The model learns from three other folds and chooses settings on the fourth. A loss is the squared error relative to the
-    /// label variance, averaged over samples and varying channels. The inner error is the reason why the model cannot be fitted.
+    /// Loss of each unit of a fold. The model learns from three other folds and chooses settings on the fourth, next fold. A loss is the squared
+    /// error divided by the label variance, averaged over samples and varying channels. The inner `Err` says why the model cannot be fitted.
     ///
     /// # Errors
     /// [`ModelError`] if `progress` was cancelled.
@@ -112,7 +112,7 @@ impl Folds {
     }
 }
 
-/// Unit of each of `rows`: the group of the row if there are enough groups, otherwise a run of neighbouring rows.
+/// Unit number of each of `rows`: the number of its group, or of its run of consecutive rows if the fold has too few groups.
 fn units(rows: &[usize], of_group: &BTreeMap<usize, usize>) -> Vec<usize> {
     let groups: Option<Vec<usize>> = rows.iter().map(|row| of_group.get(row).copied()).collect();
     let are_enough = |groups: &Vec<usize>| {
@@ -127,7 +127,8 @@ fn units(rows: &[usize], of_group: &BTreeMap<usize, usize>) -> Vec<usize> {
     })
 }
 
-/// Variance of a channel's labels; `None` if all labels are equal. Compares the labels, because the rounded mean of equal labels may differ from them.
+/// Variance of a channel's labels; `None` if all labels are equal. Compares the labels, because the rounded mean of equal labels may differ from
+/// them.
 fn variance(targets: Targets<'_>, channel: usize) -> Option<f64> {
     let channels = targets.channels.len();
     let labels = || {

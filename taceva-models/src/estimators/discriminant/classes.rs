@@ -1,4 +1,4 @@
-//! Linear discriminant analysis for classes with different means and equal scatter.
+//! Linear discriminant analysis, for classes with different means and equal covariance.
 
 use std::ops::Range;
 
@@ -7,11 +7,11 @@ use taceva_core::{ErrorKind, ModelError, Progress, SilentProgress};
 
 use super::scatter::{Blocks, Scatter, means, whitening};
 
-/// Predicts the class with the nearest mean, in features whitened by the scatter within classes.
+/// Predicts the class with the nearest mean, in features whitened by the covariance within classes.
 ///
-/// With S the covariance within classes, x is assigned the class c of least (x − μ_c)ᵀ S*⁻¹ (x − μ_c), with equal prior probabilities. For p
-/// features, S* = ρ m I + (1 − ρ) S with m = tr S / p. The share ρ minimises the expected squared error of S*. S* can therefore be inverted even for
-/// few samples of many features.
+/// A sample with features x gets the class c of least (x − μ_c)ᵀ S*⁻¹ (x − μ_c). μ_c is the mean of class c, and all classes have equal prior
+/// probabilities. S is the covariance within classes. For p features, S* = ρ m I + (1 − ρ) S with m = tr S / p and the identity matrix I. The share ρ
+/// minimises the expected squared error of S* as an estimate of the covariance. S* can therefore be inverted even for few samples of many features.
 ///
 /// # Reference
 /// Fisher (1936) for the discriminant. Ledoit and Wolf (2004), A well-conditioned estimator for large-dimensional covariance matrices,
@@ -20,7 +20,7 @@ use super::scatter::{Blocks, Scatter, means, whitening};
 pub struct Discriminant {
     /// Whitening matrix, shape `[features, features]`.
     whitening: Mat<f64>,
-    /// Mean of each class in whitened features; `None` for a class without samples.
+    /// Mean of the whitened features of each class; `None` for a class without samples.
     centres: Vec<Option<Vec<f64>>>,
 }
 
@@ -66,7 +66,7 @@ impl Discriminant {
         Ok(Discriminant { whitening, centres })
     }
 
-    /// Plane (w, b) of each class with samples. The predicted class is the class with the greatest wᵀx + b.
+    /// Weights w and offset b for each class with samples. For features x, the predicted class has the greatest wᵀx + b.
     pub(super) fn planes(&self) -> Vec<(Vec<f64>, f64)> {
         let turned = self.whitening.transpose().to_owned();
         let plane = |centre: &Vec<f64>| {
@@ -106,7 +106,7 @@ mod tests {
     use super::*;
     use taceva_core::random::SplitMix64;
 
-    /// Samples of two classes that differ along x. Their scatter is diagonal and far wider than the distance of the classes.
+    /// Samples of two classes with two features. The class means are close, and both classes vary far more along the diagonal.
     fn tilted(samples: usize, seed: u64) -> (Vec<Vec<f64>>, Vec<usize>) {
         let mut random = SplitMix64::new(seed);
         let mut uniform = || {

@@ -1,4 +1,4 @@
-//! Classification by planes: predicts the value of the plane that is highest at the sample.
+//! Classification by linear functions: predicts the label whose function has the greatest value for the features.
 
 use rayon::prelude::*;
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
@@ -11,18 +11,18 @@ use crate::training::file::tensors::{Raw, Tensors};
 use crate::training::output::{check_call, check_finite};
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// Planes of one channel over raw features.
+/// Linear functions of the raw features for one channel, one function per label.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Planes {
-    /// Value predicted by each plane, in the unit of the channel.
+    /// Label of each function, in the unit of the channel.
     values: Vec<f64>,
-    /// Weights of the planes, shape `[values, features]`.
+    /// Weights of the functions, shape `[labels, features]`.
     weights: Vec<f64>,
     offsets: Vec<f64>,
 }
 
 impl Planes {
-    /// Converts planes over the standardised features of `design` to planes over raw features.
+    /// Converts functions of the standardised features of `design` to functions of raw features.
     pub(super) fn new(
         values: Vec<f64>,
         planes: Vec<(Vec<f64>, f64)>,
@@ -46,7 +46,7 @@ impl Planes {
         }
     }
 
-    /// Value of the plane that is highest at `sample`. Of equally high planes, returns the least value.
+    /// Label whose function is greatest for the features `sample`. Of equal functions, the first label.
     fn class(&self, sample: &[f32]) -> f64 {
         let mut best = (f64::NEG_INFINITY, f64::NAN);
         let planes = self.weights.chunks_exact(sample.len()).zip(&self.offsets);

@@ -1,4 +1,4 @@
-//! Scatter of samples about their class means, shrunk so that the matrix can be inverted for few samples.
+//! Covariance of samples within classes. Shrinkage makes the matrix invertible even for few samples.
 
 use std::ops::Range;
 
@@ -8,20 +8,20 @@ use taceva_core::{ModelError, Progress};
 use crate::linalg::progress::interrupted;
 use crate::linalg::{multiply, symmetric_eigen};
 
-/// Function that reads a range of samples, standardised if configured, as a matrix of shape `[features, samples]`.
+/// Function that reads a range of samples as a matrix of shape `[features, samples]`.
 pub(super) type Blocks<'a> = dyn Fn(Range<usize>) -> Mat<f64> + Sync + 'a;
 
 /// Number of samples per block.
 const BLOCK: usize = 1024;
 
-/// Divides `samples` samples into block ranges.
+/// Divides `samples` samples into ranges of at most `BLOCK` samples.
 pub(super) fn ranges(samples: usize) -> impl Iterator<Item = Range<usize>> {
     (0..samples)
         .step_by(BLOCK)
         .map(move |start| start..samples.min(start + BLOCK))
 }
 
-/// Mean of each class; `None` for a class without samples.
+/// Mean features of each class; `None` for a class without samples.
 pub(super) fn means(blocks: &Blocks<'_>, classes: &[usize]) -> Vec<Option<Vec<f64>>> {
     let count = classes.iter().max().map_or(0, |greatest| greatest + 1);
     let mut sums: Vec<(f64, Vec<f64>)> = vec![(0.0, Vec::new()); count];
@@ -45,11 +45,11 @@ pub(super) fn means(blocks: &Blocks<'_>, classes: &[usize]) -> Vec<Option<Vec<f6
         .collect()
 }
 
-/// Accumulated scatter of samples about their class means.
+/// Covariance of samples about their class means, with the sums that its shrinkage needs.
 pub(super) struct Scatter {
     covariance: Mat<f64>,
     samples: f64,
-    /// Sum over samples of the fourth power of the distance from the class mean.
+    /// Sum over samples of the fourth power of the distance between a sample's features and its class mean.
     fourth_powers: f64,
 }
 
@@ -92,7 +92,7 @@ impl Scatter {
         })
     }
 
-    /// Shrunk covariance S*: moved towards a multiple of the identity.
+    /// Shrunk covariance: the weighted mean of the covariance and a multiple of the identity matrix.
     pub(super) fn shrunk(self) -> Mat<f64> {
         let mut covariance = self.covariance;
         let length = covariance.nrows();
@@ -115,7 +115,7 @@ impl Scatter {
     }
 }
 
-/// Whitening matrix S*^(−½); the identity if all samples of a class are equal.
+/// Inverse square root of the covariance `scatter`, up to a rotation. The identity matrix if `scatter` is zero.
 pub(super) fn whitening(scatter: &Mat<f64>) -> Result<Mat<f64>, ModelError> {
     let length = scatter.nrows();
     let (values, vectors) = symmetric_eigen(scatter.as_ref())?;

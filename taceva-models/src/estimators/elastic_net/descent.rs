@@ -1,29 +1,29 @@
-//! Coordinate descent: weights of one channel along a path of strengths.
+//! Coordinate descent: computes the weights of one channel for a sequence of penalties.
 
 use taceva_core::{ModelError, Progress};
 
 use super::predictors::{Predictors, Residual, Target};
 use crate::linalg::progress::interrupted;
 
-/// Penalty on the weights of one channel.
+/// Penalties for which the weights of one channel are computed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Penalty<'a> {
-    /// Strengths, ascending, as factors of the least penalty at which every weight is 0.
+    /// Strengths, ascending. Strength 1 is the least penalty at which every weight is 0.
     pub(super) strengths: &'a [f64],
-    /// Share α of the penalty on absolute values.
+    /// Share α of the penalty that is on absolute weights. The rest is on squared weights.
     pub(super) mix: f64,
 }
 
 /// Maximum number of sweeps over the weights at one strength.
 const SWEEPS: usize = 1000;
 
-/// Convergence threshold: largest change in one sweep relative to the variation of labels. Corresponds to about 1e-7 of squared labels, as in the reference.
+/// Convergence threshold: greatest change of predictions by one weight in a sweep, divided by the greatest effect that a single weight can have.
 const ENOUGH: f64 = 3e-4;
 
 /// Computes the weights at each strength.
 ///
-/// Starts with the strongest penalty. Every other strength starts from the weights of the previous strength. The sweeps at a strength end if a sweep
-/// changes predictions by at most 0.0003 of the typical label, or after 1,000 sweeps.
+/// Starts with the strongest penalty. Every other strength starts from the weights of the previous strength. The sweeps at one strength end when no
+/// change exceeds `ENOUGH`, or after `SWEEPS` sweeps.
 pub(super) fn path(
     predictors: &Predictors,
     target: Target<'_>,

@@ -1,4 +1,4 @@
-//! Centred features, in the layout with the cheapest coordinate steps.
+//! Centred features, stored in the layout that makes coordinate descent cheapest.
 
 use faer::Mat;
 use taceva_core::{ModelError, Progress};
@@ -10,15 +10,15 @@ use crate::linalg::{Design, dot, feature_gram};
 #[derive(Debug)]
 pub(super) struct Predictors {
     layout: Layout,
-    /// Squared length of each column.
+    /// Sum of squares of each column.
     pub(super) squares: Vec<f64>,
 }
 
 #[derive(Debug)]
 enum Layout {
-    /// Gram matrix XᵀX. A coordinate step reads one number per feature.
+    /// Gram matrix XᵀX. Updating one weight reads one number per feature.
     Gram(Mat<f64>),
-    /// Matrix X. A coordinate step reads one number per sample, twice.
+    /// Matrix X. Updating one weight reads one number per sample, twice.
     Columns(Mat<f64>),
 }
 
@@ -26,11 +26,11 @@ enum Layout {
 const FEATURES_MAX: usize = 4096;
 
 impl Predictors {
-    /// Chooses [`Columns`](Self::Columns) for fewer than half as many samples as features, or if the Gram matrix is too large. Otherwise chooses the Gram
-    /// matrix.
+    /// Chooses [`Columns`](Self::Columns) for fewer than half as many samples as features, or if the Gram matrix is too large. Otherwise chooses the
+    /// Gram matrix.
     ///
     /// # Errors
-    /// [`ModelError`] if both samples and features are too many, or `progress` was cancelled.
+    /// [`ModelError`] if there are too many samples and features for either layout, or `progress` was cancelled.
     pub(super) fn of(
         design: &Design<'_>,
         progress: &dyn Progress,
@@ -79,11 +79,11 @@ impl Predictors {
 pub(super) struct Target<'a> {
     /// Centred labels y of the samples.
     pub(super) labels: &'a [f64],
-    /// Products Xᵀy of features and labels.
+    /// Products Xᵀy of the centred features X with the labels y, one per feature.
     pub(super) products: &'a [f64],
 }
 
-/// Residual of the labels in the chosen layout: Xᵀ(y − Xw), or y − Xw itself.
+/// Residual for features X, labels y and weights w: Xᵀ(y − Xw) with a Gram matrix, otherwise y − Xw.
 #[derive(Debug)]
 pub(super) struct Residual<'a> {
     predictors: &'a Predictors,
@@ -109,7 +109,7 @@ impl<'a> Residual<'a> {
         residual
     }
 
-    /// Scalar product of the residual with the column of `feature`.
+    /// Scalar product of the residual y − Xw with the column of `feature`.
     pub(super) fn along(&self, feature: usize) -> f64 {
         match &self.predictors.layout {
             Layout::Gram(_) => self.values[feature],

@@ -21,12 +21,12 @@ use crate::training::info::ModelInfo;
 use crate::training::problem::{Problem, Validation, centred, joined, stacked};
 use crate::training::regressor::ModelRegressor;
 
-/// Gaussian process regression in Nyström's form, with predictive standard deviations.
+/// Gaussian process regression by the Nyström approximation, with predictive standard deviations.
 ///
-/// Each channel has a signal of variance s² and noise of variance λs². The ratio λ of each channel is the likeliest of 41 values from 10⁻⁸ to 10², and
-/// determines s². The kernel length is common to all channels and maximises their joint likelihood. No samples are held out. With a validation part, the
-/// deviations of each channel are then scaled so that 95 % of the errors lie within 1.96 deviations. Unscaled deviations are too wide, because landmarks
-/// explain only part of the variance.
+/// Each channel has a signal of variance s² and noise of variance λs². The ratio λ of each channel is the likeliest of 41 values from 10⁻⁸ to 10². s²
+/// is then the likeliest for this λ. The kernel length is common to all channels and maximises their joint likelihood. No samples are held out. With
+/// a validation part, the deviations of each channel are then scaled so that 95 % of the errors lie within 1.96 deviations. Unscaled deviations are
+/// too wide, because landmarks explain only part of the variance.
 ///
 /// # Reference
 /// C. E. Rasmussen, C. K. I. Williams, Gaussian Processes for Machine Learning, MIT Press 2006, eqs. 5.8 and 8.14, 8.15.
@@ -37,7 +37,7 @@ pub struct GaussianProcess {
 }
 
 impl GaussianProcess {
-    /// Registry entry.
+    /// Registry entry of the Gaussian process.
     pub const INFO: ModelInfo = ModelInfo {
         name: "gaussian-process",
         about: "a Gaussian process on landmarks: predicts the uncertainty of every prediction",
@@ -69,7 +69,8 @@ struct Fit {
 }
 
 impl Fit {
-    /// Validation error of each channel, and the factor by which the channel's deviations must be multiplied to cover 95 % of the errors.
+    /// Root mean square error of each channel on the validation part, and a factor for the channel's predictive deviations. 95 % of the errors lie
+    /// within 1.96 deviations times this factor.
     fn validated(
         &self,
         problem: &Problem<'_>,
@@ -221,7 +222,7 @@ impl ModelEstimator for GaussianProcess {
 }
 
 impl Problem<'_> {
-    /// Root mean square error of each channel, in the unit of the channel. `found` has one row of predictions per sample of `part`.
+    /// Root mean square error of each channel over the samples of `part`, in the unit of the channel. `found` has one row of predictions per sample.
     pub(crate) fn errors_of(&self, found: &[f64], part: &Validation<'_>) -> Vec<Option<f64>> {
         let channels = self.channels();
         let of = |channel: usize| {
@@ -233,7 +234,7 @@ impl Problem<'_> {
         (0..channels).map(of).collect()
     }
 
-    /// Prediction minus label for each sample of `part`, in the unit of the channel.
+    /// Prediction minus label of `channel` for each sample of `part`, in the unit of the channel.
     fn residuals_of<'a>(
         &'a self,
         found: &'a [f64],

@@ -11,7 +11,8 @@ use crate::linalg::{FeatureScale, dot};
 /// Kernel length used to choose landmarks.
 const LENGTH: f64 = 1.0;
 
-/// Unexplained share below which a sample cannot become a landmark. Smaller shares are rounding errors of single precision.
+/// Least share of a sample's kernel that earlier landmarks must leave unexplained before it can become a landmark. Smaller shares are rounding errors
+/// of single precision.
 pub(super) const EXPLAINED: f64 = 1e-5;
 
 /// Number of samples per task of a thread.
@@ -19,21 +20,21 @@ const CHUNK: usize = 64;
 
 /// Landmarks, and the distances of all training samples from them.
 ///
-/// Landmarks are chosen by pivoted Cholesky decomposition: first the sample nearest to the mean, then always the least explained sample. The choice is
-/// deterministic. The order of samples matters only between equally good samples.
+/// Landmarks are chosen by pivoted Cholesky decomposition: first the sample nearest to the mean, then repeatedly the sample whose kernel the chosen
+/// landmarks explain least. The choice is deterministic. The order of samples matters only between equally good samples.
 ///
 /// # Reference
 /// S. Fine, K. Scheinberg, J. Mach. Learn. Res. 2 (2001) 243.
 #[derive(Debug)]
 pub(super) struct Landmarks {
     pub(super) standard: Standard,
-    /// Variance D, summed over the features.
+    /// Variance D of the training samples, summed over the features.
     pub(super) variance: f64,
     /// Indices of the landmarks among the training samples.
     pub(super) chosen: Vec<usize>,
-    /// Standardised landmarks, concatenated.
+    /// Standardised features of the landmarks, shape `[landmarks, features]`.
     pub(super) rows: Vec<f32>,
-    /// Squared distances, with one row per training sample and one column per landmark.
+    /// Squared distances of training samples from landmarks, shape `[samples, landmarks]`.
     pub(super) distances: Vec<f32>,
 }
 
@@ -116,7 +117,7 @@ impl Landmarks {
     }
 }
 
-/// Factor of squared distances in the kernel: 1 / 2ℓ²D, with the kernel length ℓ and the variance D summed over the features.
+/// Factor 1 / 2ℓ²D by which the kernel multiplies squared distances, with the kernel length ℓ = `length` and the variance D = `variance`.
 pub(super) fn rate(length: f64, variance: f64) -> f64 {
     0.5 / (length * length * variance)
 }
@@ -125,7 +126,7 @@ pub(super) fn kernel(squared_distance: f32, rate: f64) -> f64 {
     (-f64::from(squared_distance) * rate).exp()
 }
 
-/// Index of the best value; of equal values, the first.
+/// Index of the best of `values` by the comparison `better`. Of equal values, the first.
 fn extreme(values: &[f64], better: impl Fn(f64, f64) -> bool) -> usize {
     let mut best = 0;
     for (position, &value) in values.iter().enumerate() {

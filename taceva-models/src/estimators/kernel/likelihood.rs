@@ -1,10 +1,10 @@
-//! Noise-to-signal ratio, chosen by maximum likelihood.
+//! Maximum-likelihood choice of the ratio of noise variance to signal variance.
 
 use faer::Mat;
 
 use crate::linalg::Spectrum;
 
-/// Candidate ratios, ascending.
+/// Candidate ratios of noise variance to signal variance, ascending.
 pub(super) fn ratios() -> Vec<f64> {
     (0..=40)
         .map(|step| 10_f64.powf(-8.0 + 0.25 * f64::from(step)))
@@ -14,7 +14,7 @@ pub(super) fn ratios() -> Vec<f64> {
 /// Maximum-likelihood settings of one channel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Likeliest {
-    /// −2 log likelihood, up to a constant.
+    /// −2 log likelihood of the labels, up to a constant.
     pub(super) cost: f64,
     /// Noise-to-signal ratio λ.
     pub(super) ratio: f64,
@@ -22,7 +22,7 @@ pub(super) struct Likeliest {
     pub(super) signal: f64,
 }
 
-/// Finds the likeliest settings for each column of centred `labels`, given the spectrum of the centred features.
+/// Finds the likeliest noise ratio and signal variance for each column of centred `labels`, given the spectrum of the centred features.
 pub(super) fn likeliest(
     spectrum: &Spectrum<'_, '_>,
     rotated: &Mat<f64>,

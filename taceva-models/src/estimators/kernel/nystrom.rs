@@ -1,4 +1,4 @@
-//! Nyström features: their scalar products approximate the kernel.
+//! Nyström features. The scalar product of the features of two samples approximates their kernel.
 
 use rayon::prelude::*;
 use taceva_core::{FeatureShape, Features, single};
@@ -8,8 +8,8 @@ use crate::linalg::distance::squared_distance;
 use crate::linalg::dot;
 use crate::linalg::standard::Standard;
 
-/// Feature map φ(x) = L⁻¹ k(x). L Lᵀ is the kernel matrix of the landmarks, and k(x) contains the kernel of x with each landmark. φ(x)ᵀφ(x') is Nyström's
-/// kernel.
+/// Feature map φ(x) = L⁻¹ k(x). L Lᵀ is the kernel matrix of the landmarks, and k(x) contains the kernel of x with each landmark. The kernel of two
+/// samples x and x' is approximately φ(x)ᵀφ(x').
 ///
 /// # Reference
 /// C. K. I. Williams, M. Seeger, NIPS 13 (2001) 682.
@@ -18,11 +18,11 @@ pub(super) struct Nystrom {
     pub(super) standard: Standard,
     /// Kernel length ℓ, for the model card.
     pub(super) length: f64,
-    /// Factor of squared distances in the kernel: 1 / 2ℓ²D, with the variance D summed over the features.
+    /// Factor 1 / 2ℓ²D by which the kernel multiplies squared distances. D is the variance of the features, summed over features.
     pub(super) rate: f64,
-    /// Landmarks, standardised by `standard`.
+    /// Features of the landmarks, standardised by `standard`, shape `[landmarks, features]`.
     pub(super) rows: Vec<f32>,
-    /// Lower triangle of the factor L, row by row.
+    /// Lower triangle of the Cholesky factor L of the kernel matrix of the landmarks, row by row.
     pub(super) factor: Vec<f64>,
     /// Indices into `Landmarks::chosen` of the landmarks in use.
     kept: Vec<usize>,
@@ -32,7 +32,7 @@ pub(super) struct Nystrom {
 const CHUNK: usize = 16;
 
 impl Nystrom {
-    /// Builds the map from the landmarks that a kernel of this length can separate.
+    /// Builds the map from landmarks whose kernels of length `length` are linearly independent.
     pub(super) fn new(landmarks: &Landmarks, length: f64) -> Nystrom {
         let rate = rate(length, landmarks.variance);
         let width = landmarks.standard.centre().len();
@@ -62,7 +62,7 @@ impl Nystrom {
         }
     }
 
-    /// Builds the map from stored numbers with checked lengths.
+    /// Builds the map from parameters of a model file, whose lengths are already checked.
     pub(super) fn ready(
         standard: Standard,
         length: f64,
@@ -86,7 +86,7 @@ impl Nystrom {
         self.kept.len()
     }
 
-    /// Nyström features of the training samples, from known distances.
+    /// Nyström features of the training samples, computed from the distances in `landmarks`.
     pub(super) fn of_training(&self, landmarks: &Landmarks) -> Features {
         let count = landmarks.chosen.len();
         let samples = landmarks.distances.par_chunks_exact(count);
@@ -135,7 +135,7 @@ impl Nystrom {
     }
 }
 
-/// Solves L x = `values` in place.
+/// Solves L x = `values` for x in place, with the lower triangle L in `factor`.
 fn substitute(factor: &[f64], values: &mut [f64]) {
     let mut start = 0;
     for position in 0..values.len() {

@@ -6,7 +6,8 @@ pub const NORMAL_95: f64 = 1.959_963_984_540_054;
 /// Minimum number of errors for a 95 % quantile.
 const ENOUGH: usize = 19;
 
-/// Factor for the deviations of a channel. After multiplication, 95 % of held-out samples lie within 1.96 deviations.
+/// Factor by which predicted standard deviations of a channel must be multiplied. The errors of 95 % of held-out samples then lie within 1.96
+/// deviations.
 ///
 /// `misses` are errors of held-out samples divided by their predicted deviations. Returns 1 for too few samples or if the quantile is 0.
 ///

@@ -1,4 +1,4 @@
-//! Fitted kernel models, linear in their Nyström features.
+//! Fitted kernel models: linear functions of Nyström features.
 
 use rayon::prelude::*;
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
@@ -54,7 +54,7 @@ impl KernelRegressor {
         self.map.len()
     }
 
-    /// Length ℓ of the kernel.
+    /// Kernel length ℓ, relative to the root mean square distance of a training sample from the mean.
     pub fn length(&self) -> f64 {
         self.map.length
     }

@@ -15,10 +15,10 @@ use crate::training::regressor::ModelRegressor;
 
 use super::regressor::KernelRegressor;
 
-/// Kernel ridge regression on landmarks: [`Ridge`] on Nyström features. [`Ridge`] chooses a strength for each channel.
+/// Kernel ridge regression on landmarks: [`Ridge`] on Nyström features, with a separate penalty for each channel.
 ///
-/// The kernel length is common to all channels. The chosen length has the least sum of squared errors relative to label ranges, on the samples that also
-/// determine the strengths.
+/// The kernel length is common to all channels. The chosen length has the least sum of squared errors relative to label ranges. The penalties are
+/// chosen on the same samples.
 ///
 /// # Reference
 /// C. Saunders, A. Gammerman, V. Vovk, ICML 1998, 515.
@@ -29,7 +29,7 @@ pub struct KernelRidge {
 }
 
 impl KernelRidge {
-    /// Registry entry.
+    /// Registry entry of kernel ridge regression.
     pub const INFO: ModelInfo = ModelInfo {
         name: "kernel-ridge",
         about: "kernel ridge regression: fits labels that are not a linear function of the picture",
@@ -52,7 +52,7 @@ impl KernelRidge {
     }
 }
 
-/// Fits ridge regression at each length of `kernel`, and returns the best fit with its feature map.
+/// Fits ridge regression at each kernel length of `kernel`, and returns the best fit with its map to Nyström features.
 pub(super) fn fit_best(
     kernel: &Kernel,
     refit: bool,

@@ -6,22 +6,23 @@ use crate::training::file::tensors::{Raw, Tensors};
 
 /// Posterior distribution of the weights of each channel.
 ///
-/// Var(x) = s² ((1 − φᵀφ) + λ φᵀ(ΦᵀΦ + λ)⁻¹φ + λ (1 + 1/n)). φ are the Nyström features of x. Φ has the centred Nyström features of the n training
-/// samples as rows, and φ in the second term is centred like them. The first term is the variance not explained by landmarks, the second the
-/// uncertainty of the weights. The third is the noise λs² of a label and of the mean.
+/// The variance of a prediction is s² ((1 − φᵀφ) + λ φᵀ(ΦᵀΦ + λ)⁻¹φ + λ (1 + 1/n)). s² is the signal variance, and λ the noise variance divided by
+/// s². φ are the Nyström features of the sample. Φ has the centred Nyström features of the n training samples as rows, and φ in the second term is
+/// centred like them. The first term is the variance not explained by landmarks, the second the uncertainty of the weights. The third is the noise
+/// λs² of a label and of the mean.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Uncertainty {
     /// Mean Nyström features of the training samples.
     pub(super) centre: Vec<f64>,
-    /// Eigenvectors of ΦᵀΦ, concatenated.
+    /// Eigenvectors of the scatter matrix of the centred Nyström features of the training samples, one after another.
     pub(super) vectors: Vec<f64>,
-    /// Eigenvalues of ΦᵀΦ.
+    /// Eigenvalues in the order of `vectors`.
     pub(super) eigenvalues: Vec<f64>,
     /// Ratio λ of each channel: noise variance divided by signal variance.
     pub(super) ratio: Vec<f64>,
     /// Signal variance s² of each channel, in the squared unit of the channel.
     pub(super) signal: Vec<f64>,
-    /// Noise term λ (1 + 1/n) of each channel.
+    /// Noise term λ (1 + 1/n) of each channel. λ is the value in `ratio`, and n the number of training samples.
     pub(super) noise: Vec<f64>,
 }
 
@@ -33,7 +34,7 @@ const SIGNAL: &str = "posterior.signal";
 const NOISE: &str = "posterior.noise";
 
 impl Uncertainty {
-    /// Writes the standard deviation of each channel for a sample with Nyström features `mapped`.
+    /// Writes the standard deviation of each channel's prediction for a sample with Nyström features `mapped`.
     pub(super) fn write(&self, mapped: &[f32], into: &mut [f64]) {
         let own: f64 = mapped.iter().map(|&value| f64::from(value).powi(2)).sum();
         let centred: Vec<f64> = mapped
@@ -59,7 +60,7 @@ impl Uncertainty {
         }
     }
 
-    /// Multiplies the deviations of each channel by its factor in `reaches`.
+    /// Multiplies the predictive standard deviations of each channel by its factor in `reaches`.
     pub(super) fn reaching(mut self, reaches: &[f64]) -> Uncertainty {
         let signals = self.signal.iter_mut().zip(reaches);
         signals.for_each(|(signal, reach)| *signal *= reach * reach);
@@ -79,7 +80,7 @@ impl Uncertainty {
         ]
     }
 
-    /// Reads the posterior from a file of a model with `count` landmarks; `None` if the file contains no posterior.
+    /// Reads the posterior of a model with `count` landmarks from its file; `None` if the file contains no posterior.
     pub(super) fn from_tensors(
         tensors: &Tensors<'_>,
         count: usize,

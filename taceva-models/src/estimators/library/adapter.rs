@@ -1,4 +1,4 @@
-//! Adapters as tables of a registry entry, numeric settings and a library call.
+//! Adapter to a library model: a registry entry, numeric settings and functions that call the library.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +12,7 @@ use crate::estimators::library::{
 use crate::settings::{ModelSettings, SettingError, SettingInfo};
 use crate::training::fit::ModelEstimator;
 
-/// An estimator of a library.
+/// Adapter to one estimator of a library.
 pub(crate) struct Adapter {
     pub(crate) model: LibraryModel,
     pub(crate) numbers: &'static [Number],
@@ -20,7 +20,7 @@ pub(crate) struct Adapter {
     pub(crate) is_classifier: bool,
     /// Rejects training sets that the library does not support.
     pub(crate) check: fn(&TrainingSet<'_>) -> Result<(), ModelError>,
-    /// Fits the library's estimator with these values of the settings.
+    /// Fits the library's estimator with the given values of the settings.
     pub(crate) fit: fn(&Numbers<'_>, &LibraryTask<'_>) -> LoadedPredictor,
 }
 
@@ -33,12 +33,12 @@ pub(crate) struct Number {
     pub(crate) unset: Unset,
 }
 
-/// Value of a numeric setting that the user did not set.
+/// Default of a numeric setting.
 #[derive(Clone, Copy)]
 pub(crate) enum Unset {
     /// A fixed value.
     Is(f64),
-    /// Candidate values, simplest last. Each channel uses the value with the smallest held-out error.
+    /// Candidate values, that of the simplest model last. Each channel uses the value with the smallest held-out error.
     ChosenAmong(&'static [f64]),
 }
 
@@ -53,7 +53,7 @@ pub(crate) fn any(_: &TrainingSet<'_>) -> Result<(), ModelError> {
     Ok(())
 }
 
-/// Accepts channels with a limited number of labels, for the classifier `name`.
+/// Accepts training sets in which each channel has at most `VALUES_MAX` distinct labels, for the classifier `name`.
 pub(crate) fn few_labels(name: &str, training: &TrainingSet<'_>) -> Result<(), ModelError> {
     let channels = training.targets.channels.as_slice();
     for (position, channel) in channels.iter().enumerate() {
@@ -97,7 +97,7 @@ impl Adapter {
 }
 
 impl Number {
-    /// Value in `settings`; `None` if the value is chosen by held-out error.
+    /// Value of the setting in `settings` or its default; `None` if it is to be chosen by held-out error.
     fn of(&self, settings: &ModelSettings) -> Result<Option<f64>, SettingError> {
         let [least, greatest] = self.range;
         let read = |text: &str| {
@@ -116,7 +116,7 @@ impl Number {
 }
 
 impl Numbers<'_> {
-    /// Value of a setting; NaN if the value is chosen by held-out error.
+    /// Value of the setting `number`; NaN if it is chosen by held-out error.
     pub(crate) fn real(&self, number: &Number) -> f64 {
         let mut numbers = self.adapter.numbers.iter();
         let place = numbers.position(|known| known.info.key == number.info.key);
@@ -124,7 +124,7 @@ impl Numbers<'_> {
         value.unwrap_or(f64::NAN)
     }
 
-    /// Value of an integer setting.
+    /// Value of the integer setting `number`.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

@@ -6,7 +6,7 @@ use taceva_core::{ErrorKind, Features, ModelError};
 use super::task::LibraryPredictor;
 use crate::linalg::standard::Standard;
 
-/// Library model fitted on some rows.
+/// Library model that was fitted to a selection of samples.
 pub(super) struct Fitted {
     /// Standardisation applied to all features.
     pub(super) standard: Standard,
@@ -14,14 +14,14 @@ pub(super) struct Fitted {
     pub(super) kept: Vec<usize>,
     /// Indices of the channels that the predictor predicts, ascending.
     pub(super) live: Vec<usize>,
-    /// Constant of each channel, added to the predictions. It is the whole prediction of channels outside `live`.
+    /// Constant of each channel, added to its predictions. Channels that are not in `live` are predicted by this constant alone.
     pub(super) base: Vec<f64>,
     /// Predictor of the library; `None` if no feature or no label varies.
     pub(super) predictor: Option<Box<dyn LibraryPredictor>>,
 }
 
 impl Fitted {
-    /// Predicts every sample of `features`, with one row per sample. Predictions have the scale of the training labels.
+    /// Predicts every sample of `features`, one row per sample, in the scale of the labels that the model was fitted to.
     pub(super) fn predict(&self, features: &Features) -> Result<Mat<f64>, ModelError> {
         let mut found = Mat::from_fn(features.samples(), self.base.len(), |_, channel| {
             self.base[channel]

@@ -1,4 +1,4 @@
-//! Adapter from library estimators to [`ModelEstimator`], with the same checks, trials and scaling as models of this crate.
+//! Adapter from library estimators to [`ModelEstimator`]. Checks, scaling and choice of settings are the same as for models of this crate.
 
 use faer::Mat;
 use rayon::prelude::*;
@@ -19,7 +19,7 @@ pub(crate) struct LibraryEstimator {
 }
 
 impl LibraryEstimator {
-    /// Summed squared error of each channel for each value in `tried`. Infinite if the library fails.
+    /// Squared error of each channel, summed over the held-out samples, for each set of values in `tried`. Infinite if the fit fails.
     fn squares(
         &self,
         trials: &Trials<'_>,
@@ -44,7 +44,7 @@ impl LibraryEstimator {
     }
 }
 
-/// Summed squared error of each channel.
+/// Squared error of each channel, summed over samples.
 fn summed(found: &Mat<f64>, truth: &Mat<f64>) -> Vec<f64> {
     let of = |channel: usize| {
         let pairs = found.col_as_slice(channel).iter();
@@ -121,7 +121,7 @@ impl ModelEstimator for LibraryEstimator {
     }
 }
 
-/// Labels of the training and held-out part in their units, one row per sample.
+/// Labels of the training part and then of `held`, in the units of the channels, one row per sample.
 fn as_given(training: &TrainingSet<'_>, held: Option<&TrainingSet<'_>>) -> Mat<f64> {
     let channels = training.targets.channels.len();
     let values = held.map_or(&[][..], |held| held.targets.values);
@@ -133,7 +133,7 @@ fn as_given(training: &TrainingSet<'_>, held: Option<&TrainingSet<'_>>) -> Mat<f
 
 estimator!(LibraryEstimator, |own| own.learner.model().info.name);
 
-/// Wraps `learner` for the registry.
+/// Makes `learner` a [`ModelEstimator`].
 pub(crate) fn library_estimator(learner: impl LibraryLearner + 'static) -> Box<dyn ModelEstimator> {
     Box::new(LibraryEstimator {
         learner: Box::new(learner),

@@ -1,4 +1,4 @@
-//! A single fit of a library, restricted to features and labels that vary.
+//! One fit by a library. Features and channels that do not vary are removed first.
 
 use faer::Mat;
 use taceva_core::{Features, ModelError, Progress};
@@ -9,7 +9,7 @@ use super::task::{LibrarySizes, LibraryTask};
 use crate::linalg::progress::interrupted;
 use crate::linalg::standard::Standard;
 
-/// Fits `learner` on `features` and `labels`, one row per sample. `values` contains the chosen setting of each channel.
+/// Fits `learner` to `features` and `labels`, one row per sample. `values` has one value per channel for the setting that is being chosen.
 pub(super) fn fit(
     learner: &dyn LibraryLearner,
     features: &Features,

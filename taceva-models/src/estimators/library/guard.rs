@@ -4,7 +4,7 @@ use std::fmt::Display;
 
 use taceva_core::{ErrorKind, ModelError, contained};
 
-/// Runs `call` into a library for the model `name`.
+/// Calls a library for the model `name`, and converts its panics to errors.
 ///
 /// # Errors
 /// [`ModelError`] of kind `InvalidArgument` if the library fails, of kind `Panicked` if the library panics. Both errors name the model.
@@ -22,7 +22,7 @@ pub(crate) fn guarded<T, E: Display>(
     }
 }
 
-/// Rejects fitted parameters that are not finite.
+/// Rejects fitted parameters of the model `name` that are not finite.
 pub(crate) fn finite<'a>(
     name: &str,
     mut numbers: impl Iterator<Item = &'a f64>,

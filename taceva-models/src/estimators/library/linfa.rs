@@ -31,12 +31,12 @@ fn matrix(values: &[f64], rows: usize) -> Result<Array2<f64>, ModelError> {
     })
 }
 
-/// Rows of a task as a matrix.
+/// Features of a task as a matrix, one row per sample.
 fn records(task: &LibraryTask<'_>) -> Result<Array2<f64>, ModelError> {
     matrix(task.rows, task.sizes.samples)
 }
 
-/// Rows of a task as a matrix in column-major order, for methods that process features one by one.
+/// Features of a task as a matrix in column-major order, for methods that process features one by one.
 fn columns(task: &LibraryTask<'_>) -> Result<Array2<f64>, ModelError> {
     let (samples, features) = (task.sizes.samples, task.sizes.features);
     let by_column = (0..features).flat_map(|feature| {

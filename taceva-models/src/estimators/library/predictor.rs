@@ -1,4 +1,5 @@
-//! Predictors of library models. Parameters are stored as tensors, and this crate computes predictions in a fixed order of operations.
+//! Predictors of library models. Parameters are stored as tensors. This crate computes the predictions itself, always in the same order of
+//! operations.
 
 mod linear;
 #[cfg(feature = "linfa")]
@@ -15,7 +16,7 @@ pub(crate) use self::support::{Machine, Support};
 pub(crate) use self::trees::{Node, Tree, Trees};
 use taceva_core::{ErrorKind, ModelError};
 
-/// Error for tensors that no fit can produce.
+/// Error for a model file whose tensors cannot result from a fit. `why` names the fault.
 pub(crate) fn damaged(why: &str) -> ModelError {
     ModelError::new(ErrorKind::Protocol, why)
 }

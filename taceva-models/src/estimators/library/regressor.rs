@@ -1,4 +1,4 @@
-//! Fitted library models: features, parameters and output scale.
+//! Fitted library models, with their features, parameters and scale of predictions.
 
 use std::fmt;
 use std::sync::Arc;
@@ -64,12 +64,12 @@ impl LibraryRegressor {
         }
     }
 
-    /// Card entry with the library and release that fitted the model.
+    /// Entry of the model card: the library and release that fitted the model.
     pub fn card(&self) -> &LibraryCard {
         &self.card
     }
 
-    /// Loads the model from a file. The build must include the library of the model.
+    /// Loads the model from a file. Fails if this build lacks the library of the model.
     pub(super) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
         let card = stored.card.library.as_ref().ok_or(FormatError::Card)?;
         let model = library_models().find(|model| model.info.name == stored.card.model);

@@ -11,12 +11,12 @@ pub(crate) struct LibrarySettings {
 }
 
 impl LibrarySettings {
-    /// Setting that divides each feature by its standard deviation over the training part.
+    /// Switch: divides each feature by its standard deviation over the training part.
     pub(crate) const SCALE: SettingInfo = FeatureScale::SETTING;
-    /// Setting that refits on training and validation parts with the chosen settings.
+    /// Switch: fits the model again on training and validation parts with the chosen settings.
     pub(crate) const REFIT: SettingInfo = SettingInfo::REFIT;
 
-    /// Reads the settings.
+    /// Reads the shared settings from `settings`.
     ///
     /// # Errors
     /// [`SettingError`] for a value out of range.

@@ -28,7 +28,7 @@ pub(crate) const ALL: &[&LibraryModel] = &[
     &boosting::ADAPTER.model,
 ];
 
-/// Converts `values` to a matrix with `rows` rows, in column-major order for the library.
+/// Converts `values`, stored row by row, to a matrix with `rows` rows.
 fn matrix(name: &str, values: &[f64], rows: usize) -> Result<DenseMatrix<f64>, ModelError> {
     let columns = values.len() / rows.max(1);
     let by_column = (0..columns).flat_map(|column| {
@@ -40,7 +40,7 @@ fn matrix(name: &str, values: &[f64], rows: usize) -> Result<DenseMatrix<f64>, M
     })
 }
 
-/// Rows of a task as a matrix.
+/// Features of a task as a matrix, one row per sample.
 fn records(name: &str, task: &LibraryTask<'_>) -> Result<DenseMatrix<f64>, ModelError> {
     matrix(name, task.rows, task.sizes.samples)
 }

@@ -1,24 +1,24 @@
 //! Coordinates of samples in their span, used if there are no more samples than features.
 //!
-//! A rotation of the features does not change ridge regression or the least-norm solution of least squares. The weights have no component outside the span of
-//! the samples. There are fewer span coordinates than samples. A library that needs more samples than features therefore gives the same result in these
-//! coordinates.
+//! A rotation of the features does not change ridge regression or the least-norm solution of least squares. The weights have no component outside the
+//! span of the samples. The span has fewer dimensions than there are samples. A library that requires more samples than features can therefore
+//! compute the same result in these coordinates.
 
 use crate::estimators::library::predictor::Weighted;
 use crate::linalg::dot;
 
-/// Orthonormal basis of the span of rows about their mean, and the coordinates of the rows in this basis.
+/// Orthonormal basis of the span of centred rows, and the coordinates of the rows in this basis.
 pub(crate) struct Span {
     /// Mean row, shape `[features]`.
     centre: Vec<f64>,
-    /// Orthonormal vectors, shape `[dimensions, features]`.
+    /// Orthonormal basis vectors, shape `[dimensions, features]`.
     basis: Vec<f64>,
     features: usize,
     /// Coordinates of the rows, shape `[samples, dimensions]`.
     pub(crate) rows: Vec<f64>,
 }
 
-/// Largest remainder of a row after projection, relative to the longest row, for which the row adds no direction.
+/// Norm of the remainder of a row after projection, relative to the longest row, up to which the row adds no basis vector.
 const TOLERANCE: f64 = 1e-10;
 
 impl Span {
@@ -63,7 +63,7 @@ impl Span {
         }
     }
 
-    /// Converts `weights` of coordinates to weights of features and a bias.
+    /// Converts `weights` for span coordinates to weights for features, with the bias that accounts for the centring.
     pub(crate) fn weights(&self, weights: &[f64]) -> Weighted {
         let mut of_features = vec![0.0; self.features];
         for (weight, direction) in weights.iter().zip(self.basis.chunks_exact(self.features)) {
@@ -75,7 +75,7 @@ impl Span {
     }
 }
 
-/// Mean row of `rows`.
+/// Mean of each feature over `rows`, shape `[features]`.
 fn mean(rows: &[f64], features: usize) -> Vec<f64> {
     let samples = (rows.len() / features) as f64;
     let mut mean = vec![0.0; features];

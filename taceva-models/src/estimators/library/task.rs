@@ -29,9 +29,9 @@ pub(crate) struct LibraryTask<'a> {
     pub(crate) sizes: LibrarySizes,
     /// Feature values, shape `[samples, features]`, centred and scaled. Each value is exact in single precision.
     pub(crate) rows: &'a [f64],
-    /// Labels, shape `[samples, targets]`, scaled to 0..1 by the training part and centred. Unscaled for classifiers.
+    /// Labels, shape `[samples, targets]`, divided by their range in the training part and centred. Labels of classifiers are unchanged.
     pub(crate) labels: &'a [f64],
-    /// Value of the chosen setting, shape `[targets]`. Empty if no setting is chosen by error.
+    /// Value for each target of the setting that is chosen by held-out error, shape `[targets]`. Empty if the model has no such setting.
     pub(crate) values: &'a [f64],
     /// Progress receiver, which may cancel the fit between library calls.
     pub(crate) progress: &'a dyn Progress,
@@ -59,5 +59,5 @@ pub(crate) trait LibraryPredictor: Send + Sync {
     fn predict(&self, sample: &[f32], into: &mut [f64]) -> Result<(), ModelError>;
 }
 
-/// Loaded predictor, or the error found in the tensors.
+/// Predictor that was built from a fit or a model file, or the error.
 pub(crate) type LoadedPredictor = Result<Box<dyn LibraryPredictor>, ModelError>;

@@ -1,4 +1,4 @@
-//! Stores parameters of library models as prefixed tensors of a model file.
+//! Storage of the parameters of library models as tensors of a model file. Their names have a common prefix.
 
 use safetensors::tensor::{Dtype, TensorView};
 use taceva_core::{ErrorKind, ModelError};
@@ -16,7 +16,7 @@ pub(super) fn prefixed(tensor: Raw) -> Raw {
     }
 }
 
-/// Tensors of a library model in a file. Names are given without the prefix.
+/// Tensors of a library model in a file. Callers give names without the prefix.
 pub(crate) struct LibraryTensors<'a>(pub(super) &'a Tensors<'a>);
 
 impl<'a> LibraryTensors<'a> {

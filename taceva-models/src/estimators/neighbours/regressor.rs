@@ -1,4 +1,4 @@
-//! Nearest-neighbour models: stored training samples, and their weighted mean label.
+//! Nearest-neighbour models: store the training samples and predict a weighted mean of their labels.
 
 use faer::Mat;
 use rayon::prelude::*;
@@ -13,15 +13,15 @@ use crate::training::file::tensors::{Raw, Tensors};
 use crate::training::output::{OutputScale, check_call, check_finite};
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// Training samples, their labels, and the number of neighbours of each channel.
+/// Training samples with their labels, and the number of neighbours that each channel uses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NeighbourRegressor {
     channels: Channels,
     shape: FeatureShape,
     standard: Standard,
-    /// Standardised training samples, concatenated.
+    /// Standardised features of the training samples, shape `[samples, features]`.
     rows: Vec<f32>,
-    /// Labels, centred and scaled, with one row per training sample and one column per channel.
+    /// Labels, divided by their range and centred, shape `[samples, channels]`.
     labels: Vec<f64>,
     scale: OutputScale,
     counts: Vec<usize>,
@@ -35,14 +35,14 @@ const OFFSET: &str = "neighbours.offset";
 const ROWS: &str = "neighbours.samples";
 const SPAN: &str = "neighbours.span";
 
-/// A training sample near a sample, with its distance.
+/// A training sample, with its squared distance from the sample to predict.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near {
     distance: f32,
     sample: usize,
 }
 
-/// Finds the `count` rows nearest to `sample`, and all rows as near as the last of them. Sorted by distance.
+/// Finds the `count` rows nearest to `sample`, and all other rows at the greatest of these distances. Sorted by distance.
 pub(super) fn nearest(sample: &[f32], rows: &[f32], count: usize) -> Vec<Near> {
     let rows = rows.chunks_exact(sample.len()).enumerate();
     let mut all: Vec<Near> = rows
@@ -65,7 +65,7 @@ pub(super) fn nearest(sample: &[f32], rows: &[f32], count: usize) -> Vec<Near> {
     all
 }
 
-/// Mean of `label` over the first `count` neighbours of `near`, weighted by 1 / distance. Includes all neighbours as near as the last of them.
+/// Mean of `label` over the first `count` samples of `near`, weighted by 1 / distance. Includes all other samples at the greatest of these distances.
 pub(super) fn weighted(near: &[Near], count: usize, label: impl Fn(usize) -> f64) -> f64 {
     let farthest = near[count.min(near.len()) - 1].distance;
     let inside = near.iter().take_while(|near| near.distance <= farthest);

@@ -1,4 +1,4 @@
-//! `linfa/elastic-net`: a penalty that removes whole features, for all targets at once.
+//! `linfa/elastic-net`: multi-task elastic net, whose penalty drops a feature for all channels together.
 
 use linfa::Dataset;
 use linfa::traits::Fit;
@@ -41,7 +41,7 @@ const MIX: Number = Number {
     unset: Unset::Is(0.5),
 };
 
-/// Candidate strengths, ascending, four per decade.
+/// Candidate strengths of the penalty, ascending, four per decade.
 const STRENGTHS: [f64; 11] = [
     3.162_277_660_168_379e-3,
     5.623_413_251_903_491e-3,
@@ -61,10 +61,10 @@ const SWEEPS: u32 = 1000;
 const TOLERANCE: f64 = 1e-4;
 
 /// Multi-task elastic net: minimises ½n⁻¹ ‖Y − XW‖² + λ (α Σ‖wⱼ‖₂ + ½(1 − α)‖W‖²). X contains the features of n samples, Y their labels and W the
-/// weights; wⱼ are the weights of feature j for every target. α is the setting `mix`.
+/// weights. wⱼ are the weights of feature j for every target. α is the setting `mix`.
 ///
-/// λ is the strength × the least λ at which every weight is 0. All targets are fitted together, once per strength. For each target, the weights of its chosen
-/// strength are used.
+/// λ is the strength of the penalty times the least λ at which every weight is 0. All targets are fitted together, once per strength. For each
+/// target, the weights of its chosen strength are used.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -92,7 +92,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
     fit,
 };
 
-/// Least λ at which every weight is 0.
+/// Least penalty factor λ at which every weight of the elastic net is 0.
 fn least(records: &Array2<f64>, targets: &Array2<f64>, mix: f64) -> f64 {
     let products = records.t().dot(targets);
     let lengths = products.rows().into_iter().map(|row| row.dot(&row).sqrt());

@@ -21,7 +21,7 @@ const NAME: &str = "linfa/linear";
 
 /// Ordinary least squares by Householder decomposition, each target separately.
 ///
-/// With no more samples than features, or with dependent features, the library receives the samples in coordinates of their span. The result is the
+/// If features are dependent or no fewer than samples, the library receives the samples in coordinates of their span. The result is then the
 /// least-squares solution of least norm.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
@@ -45,7 +45,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
     fit,
 };
 
-/// Weights of one target.
+/// Solves the least-squares problem for one target and returns its weights.
 fn solved(rows: &[f64], labels: &Array1<f64>) -> Result<Vec<f64>, ModelError> {
     let records = matrix(rows, labels.len())?;
     let dataset = Dataset::new(records, labels.clone());

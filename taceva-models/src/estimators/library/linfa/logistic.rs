@@ -30,11 +30,11 @@ const STRENGTH: Number = Number {
     unset: Unset::ChosenAmong(&STRENGTHS),
 };
 
-/// Candidate strengths, ascending.
+/// Candidate strengths of the penalty, ascending.
 const STRENGTHS: [f64; 5] = [1e-1, 1.0, 1e1, 1e2, 1e3];
 
-/// Multinomial logistic regression with a penalty on squared weights, each target separately. Predicts one of the channel's training values. Suitable
-/// for channels with few distinct labels, such as grating spacings.
+/// Multinomial logistic regression with a penalty on squared weights, each target separately. Each prediction is one of the training labels of the
+/// channel. Suitable for channels with few distinct labels, such as grating spacings.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -68,7 +68,7 @@ fn levels(mut labels: Vec<f64>) -> Vec<f64> {
     labels
 }
 
-/// Fits the planes of one target with the penalty `strength`.
+/// Fits one target with the penalty `strength`. Returns a linear function per class.
 fn planes(task: &LibraryTask<'_>, target: usize, strength: f64) -> Result<Classes, ModelError> {
     let labels = task.target(target);
     let known = levels(labels.clone());

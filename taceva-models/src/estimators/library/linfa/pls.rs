@@ -35,11 +35,11 @@ const COMPONENTS: Number = Number {
 /// Candidate numbers of components, descending. Of numbers with equal errors, the smallest is chosen.
 const COUNTS: [f64; 9] = [30.0, 25.0, 20.0, 15.0, 10.0, 6.0, 4.0, 2.0, 1.0];
 
-/// Number of rows per prediction when weights are derived from predictions.
+/// Number of rows per call when weights are computed from predictions.
 const ROWS: usize = 256;
 
-/// Partial least squares by power iterations (NIPALS), for all targets at once. The number of components is at most the number of features, and at most samples
-/// − 1.
+/// Partial least squares by power iterations (NIPALS), for all targets at once. The number of components is at most the number of features, and less
+/// than the number of samples.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -66,7 +66,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
     fit,
 };
 
-/// Weights and bias of each target. They are derived from the model's predictions for unit vectors.
+/// Weights and bias of each target, computed from the model's predictions for unit vectors.
 fn weights(
     fitted: &PlsRegression<f64>,
     features: usize,

@@ -29,16 +29,16 @@ const COST: Number = Number {
     is_whole: false,
     unset: Unset::ChosenAmong(&COSTS),
 };
-/// Candidate costs, descending. Of costs with equal errors, the smallest is chosen.
+/// Candidate costs of errors, descending. Of costs with equal errors, the smallest is chosen.
 const COSTS: [f64; 4] = [100.0, 10.0, 1.0, 0.1];
 
-/// Absolute value up to which the library treats a coefficient as 0.
+/// Absolute value up to which the library treats a support vector coefficient as 0.
 const NOTHING: f64 = 100.0 * f64::EPSILON;
 
 /// Support vector regression by sequential minimal optimisation, each target separately.
 ///
-/// The kernel of two samples x and v is exp(−‖x − v‖² / (2 ℓ² d²)). ℓ is the setting `length`, and d² the mean squared distance of training samples
-/// from their mean.
+/// The kernel of two samples with features x and v is exp(−‖x − v‖² / (2 ℓ² d²)). ℓ is the setting `length`, and d² the mean squared distance of
+/// training samples from their mean.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -67,7 +67,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
     fit,
 };
 
-/// Factor of squared distances in a kernel of length `length`, in typical distances.
+/// Factor of squared distances in a kernel of length `length`, relative to the root mean square distance of samples from their mean.
 pub(crate) fn rate(task: &LibraryTask<'_>, length: f64) -> f64 {
     let squares: f64 = task.rows.iter().map(|value| value * value).sum();
     task.sizes.samples as f64 / (2.0 * length * length * squares)

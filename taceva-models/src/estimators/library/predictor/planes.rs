@@ -1,4 +1,4 @@
-//! Classification by planes: predicts, for each target, the label of the plane that is highest at the sample.
+//! Classification by linear functions: predicts, for each target, the label whose function has the greatest value for the features.
 
 use taceva_core::ModelError;
 
@@ -8,16 +8,16 @@ use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensors}
 use crate::linalg::dot;
 use crate::training::file::tensors::Raw;
 
-/// Planes of all targets.
+/// Linear functions of all targets, one per class.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Planes(Vec<Classes>);
 
-/// Classes of one target.
+/// Classes of one target with their linear functions: offset + Σ weight · feature.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Classes {
     /// Label of each class.
     pub(crate) labels: Vec<f64>,
-    /// Offset of each class.
+    /// Offset of each class's linear function.
     pub(crate) offsets: Vec<f64>,
     /// Weights, shape `[classes, features]`.
     pub(crate) weights: Vec<f64>,

@@ -7,8 +7,8 @@ use crate::estimators::library::guard::finite;
 use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensors};
 use crate::training::file::tensors::Raw;
 
-/// Predicts Σ coefficient · exp(−rate ‖x − v‖²) + bias for the features x of a sample and each target. The sum is over training samples v with a
-/// nonzero coefficient in any target.
+/// Predicts Σ coefficient · exp(−rate ‖x − v‖²) + bias for each target. x are the features of a sample. The sum is over training samples v with a
+/// nonzero coefficient for any target.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Support {
     rate: f64,
@@ -33,7 +33,8 @@ const RATE: &str = "rate";
 const VECTORS: &str = "vectors";
 
 impl Support {
-    /// Builds the predictor from `rows`, `[samples, features]` with values of single precision, and one machine per target.
+    /// Builds the predictor from training samples `rows` and one machine per target. `rows` has shape `[samples, features]` and values that are exact
+    /// in single precision.
     ///
     /// # Errors
     /// [`ModelError`] of kind `OutOfRange` if a coefficient or bias is not finite.
@@ -111,7 +112,7 @@ impl LibraryPredictor for Support {
     }
 }
 
-/// Squared distance, computed with eight partial sums in a fixed order.
+/// Squared distance between `left` and `right`, summed in a fixed order as eight partial sums.
 fn squared_distance(left: &[f32], right: &[f32]) -> f64 {
     let (left, last_left) = left.as_chunks::<8>();
     let (right, last_right) = right.as_chunks::<8>();

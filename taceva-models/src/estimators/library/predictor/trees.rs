@@ -7,7 +7,7 @@ use crate::estimators::library::guard::finite;
 use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensors};
 use crate::training::file::tensors::Raw;
 
-/// Predicts base + factor · Σ leaf for each target, over the trees of the target.
+/// Predicts base + factor · Σ leaf for each target. The sum is over the trees of the target, and leaf is the value of the leaf that a sample reaches.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Trees {
     /// Constant of each target.
@@ -22,13 +22,13 @@ pub(crate) struct Trees {
 /// Nodes of a tree, root first.
 pub(crate) type Tree = Vec<Node>;
 
-/// A node of a tree: a comparison, or a leaf if `low` is 0.
+/// Node of a tree. An inner node compares one feature with a threshold; a leaf has `low` = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Node {
     pub(crate) feature: u32,
-    /// Largest feature value for which the path continues at `low`. For greater values it continues at `high`.
+    /// Greatest feature value that leads to child `low`. Greater values lead to child `high`.
     pub(crate) threshold: f64,
-    /// Indices of the child nodes. Both are greater than the index of this node.
+    /// Indices of the child nodes `low` and `high`. Both are greater than the index of this node.
     pub(crate) low: u32,
     pub(crate) high: u32,
     pub(crate) value: f64,
@@ -135,7 +135,7 @@ fn leaf(tree: &Tree, sample: &[f32]) -> f64 {
     node.value
 }
 
-/// Converts a count to `u32`, the type in files.
+/// Converts a count to `u32`, the type of counts in model files.
 pub(crate) fn small(count: usize) -> u32 {
     u32::try_from(count).expect("fewer than a file holds")
 }

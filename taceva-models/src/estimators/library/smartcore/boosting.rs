@@ -72,8 +72,8 @@ const SEED: Number = Number {
     unset: Unset::Is(0.0),
 };
 
-/// Gradient boosting with exact splits and a penalty on leaves, each target separately. No setting is chosen by error, because every split sorts every feature
-/// again. One fit takes as long as the whole choice of settings in other models.
+/// Gradient boosting with exact splits and a penalty on leaf values, each target separately. No setting is chosen by held-out error, because each fit
+/// is slow: every split sorts every feature.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -104,7 +104,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
     fit,
 };
 
-/// Converts a serialised tree to nodes, root first; `None` for another form.
+/// Converts a tree in the serialised form of the library to nodes, root first; `None` for an unexpected form.
 fn tree(root: &Value) -> Option<Tree> {
     let mut nodes = Tree::new();
     grow(root, &mut nodes)?;

@@ -67,7 +67,7 @@ const SEED: Number = Number {
     unset: Unset::Is(0.0),
 };
 
-/// Candidate shares of features, descending. Of shares with equal errors, the last and cheapest share is chosen.
+/// Candidate fractions of the features that each split examines, descending. Of fractions with equal errors, the smallest and cheapest is chosen.
 const SHARES: [f64; 3] = [0.3, 0.1, 0.03];
 
 const NUMBERS: &[Number] = &[TREES, LEAF, SHARE, SEED];
@@ -81,7 +81,7 @@ const SETTINGS: &[SettingInfo] = &[
     LibrarySettings::REFIT,
 ];
 
-/// Random forest: trees on bootstrap samples with best splits, each target separately.
+/// Random forest: each tree learns from a bootstrap sample and uses the best splits. Each target has its own forest.
 pub(super) static FOREST: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -100,7 +100,7 @@ pub(super) static FOREST: Adapter = Adapter {
     fit: |set, task| fit(&FOREST, random_forest, set, task),
 };
 
-/// Extra trees: trees on all samples with random splits, each target separately.
+/// Extra trees: each tree learns from all samples and uses random splits. Each target has its own forest.
 pub(super) static EXTRA_TREES: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -119,18 +119,19 @@ pub(super) static EXTRA_TREES: Adapter = Adapter {
     fit: |set, task| fit(&EXTRA_TREES, extra_trees, set, task),
 };
 
-/// Number of multiplications for a hundred trees that are grown four times: for each of three shares, and for the chosen share. Every tree sorts every feature
-/// at every depth.
+/// Number of multiplications for a hundred trees that are grown four times: for each of the three `SHARES`, and for the chosen share. Every tree
+/// sorts every feature at every depth.
 fn work(sizes: LibrarySizes) -> Option<f64> {
     let [samples, features, targets] = sizes.real();
     let depth = 2.0 * samples.log2().max(1.0);
     Some(4.0 * 100.0 * 2.0 * targets * samples * features * depth)
 }
 
-/// Function that grows the trees of one target with a number of features per split. Returns the trees in the library's serialised form, or the library's error.
+/// Function that grows the trees of one target. The last argument is the number of features per split. Returns the trees in the serialised form of
+/// the library, or its error.
 type Grow = fn(&Numbers<'_>, &DenseMatrix<f64>, &Vec<f64>, usize) -> Result<Value, String>;
 
-/// Defines a `Grow` for the library type `$regressor`. The library's parameter types have equal methods, but no common trait.
+/// Defines a function of type `Grow` for the type `$regressor` of the library. Its parameter types have equal methods, but no common trait.
 macro_rules! grow {
     ($name:ident, $regressor:ident, $parameters:ident) => {
         fn $name(
@@ -162,7 +163,7 @@ grow!(
     ExtraTreesRegressorParameters
 );
 
-/// Converts a serialised forest to trees; `None` for another form.
+/// Converts a forest in the serialised form of the library to trees; `None` for an unexpected form.
 fn trees(forest: &Value) -> Option<Vec<Tree>> {
     let trees = forest.get("forest_regressor")?.get("trees")?.as_array()?;
     let trees = trees.iter().map(|tree| {

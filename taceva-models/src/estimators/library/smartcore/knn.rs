@@ -1,4 +1,4 @@
-//! `smartcore/knn` and `smartcore/knn-classifier`: mean or vote of the nearest training samples, found by the library's search.
+//! `smartcore/knn` and `smartcore/knn-classifier`: mean or majority label of the nearest training samples, weighted by 1 / distance.
 
 use smartcore::algorithm::neighbour::linear_search::LinearKNNSearch;
 use smartcore::metrics::distance::euclidian::Euclidian;
@@ -56,7 +56,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
     fit: |_, task| fit(task, Answer::Mean),
 };
 
-/// The label with the greatest sum of weights 1 / distance among the nearest neighbours. Of equal sums, the smallest label.
+/// Predicts the label with the greatest sum of weights 1 / distance among the nearest neighbours. Of equal sums, the smallest label.
 pub(super) static CLASSIFIER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -76,14 +76,14 @@ pub(super) static CLASSIFIER: Adapter = Adapter {
     fit: |_, task| fit(task, Answer::Vote),
 };
 
-/// Prediction from the labels of neighbours.
+/// Rule that computes a prediction from the labels of neighbours.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Answer {
     Mean,
     Vote,
 }
 
-/// Search structure of the library with the training samples, and the labels of these samples.
+/// Training samples in the search structure of the library, with their labels.
 struct Lookup {
     search: LinearKNNSearch<Vec<f64>, Euclidian<f64>>,
     features: usize,
@@ -177,7 +177,7 @@ impl LibraryPredictor for Lookup {
     }
 }
 
-/// Mean of labels with weights.
+/// Weighted mean of labels. Each item is a label and its weight.
 fn mean(labels: impl Iterator<Item = (f64, f64)>) -> f64 {
     let (mut sum, mut total) = (0.0, 0.0);
     for (label, weight) in labels {
@@ -187,7 +187,7 @@ fn mean(labels: impl Iterator<Item = (f64, f64)>) -> f64 {
     sum / total
 }
 
-/// Label with the greatest sum of weights; of equal sums, the smallest label.
+/// Label with the greatest sum of weights. Each item is a label and its weight. Of equal sums, the smallest label.
 fn vote(labels: impl Iterator<Item = (f64, f64)>) -> f64 {
     let mut sums: Vec<(f64, f64)> = Vec::new();
     for (label, weight) in labels {
@@ -208,7 +208,7 @@ fn vote(labels: impl Iterator<Item = (f64, f64)>) -> f64 {
 }
 
 impl Lookup {
-    /// Nearest samples of `asked` with their weights, in sample order.
+    /// Indices of the `count` training samples nearest to the sample `asked`, with their weights, in ascending order.
     fn nearest(&self, asked: &Vec<f64>, count: u32) -> Result<Vec<(usize, f64)>, ModelError> {
         let found = guarded(NAME, || self.search.find(asked, count as usize))?;
         let mut near: Vec<(usize, f64)> = found

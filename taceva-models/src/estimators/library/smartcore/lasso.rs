@@ -30,17 +30,17 @@ const STRENGTH: Number = Number {
     unset: Unset::ChosenAmong(&STRENGTHS),
 };
 
-/// Candidate strengths, ascending.
+/// Candidate strengths of the penalty, ascending.
 const STRENGTHS: [f64; 4] = [1e-2, 3e-2, 1e-1, 3e-1];
 
-/// Maximum number of steps. The method stops earlier at a relative duality gap of `TOLERANCE`.
+/// Maximum number of interior-point steps. The method stops earlier at a relative duality gap of `TOLERANCE`.
 const STEPS: usize = 50;
 const TOLERANCE: f64 = 1e-2;
 
 /// Lasso by an interior-point method, each target separately: minimises ‖y − Xw‖² + λ ‖w‖₁ for labels y, features X and weights w.
 ///
-/// λ is the strength × the least λ at which every weight is 0. The library rejects fewer samples than features. In that case, samples with zero features and
-/// zero labels are appended, which do not change any sum.
+/// λ is the strength times the least λ at which every weight is 0. The library rejects fewer samples than features. In that case, samples of zeros
+/// are appended, which do not change the minimum.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -67,7 +67,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
     fit,
 };
 
-/// Least λ at which every weight is 0: twice the largest product of a feature with the labels.
+/// Least penalty factor λ at which every weight of the lasso is 0: twice the largest absolute product of a feature column with the labels.
 fn least(rows: &[f64], features: usize, labels: &[f64]) -> f64 {
     let mut products = vec![0.0; features];
     for (row, label) in rows.chunks_exact(features).zip(labels) {

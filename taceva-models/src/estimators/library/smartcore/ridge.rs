@@ -31,13 +31,13 @@ const STRENGTH: Number = Number {
     unset: Unset::ChosenAmong(&STRENGTHS),
 };
 
-/// Candidate strengths, ascending.
+/// Candidate strengths of the penalty, ascending.
 const STRENGTHS: [f64; 9] = [1e-4, 1e-3, 1e-2, 3e-2, 1e-1, 3e-1, 1.0, 1e1, 1e2];
 
 /// Ridge regression by the normal equations, each target separately.
 ///
-/// The library requires more samples than features. With fewer samples, the library receives the samples in coordinates of their span, which gives
-/// the same weights.
+/// The library requires more samples than features. With fewer samples, the library receives the samples in coordinates of their span. The weights
+/// are the same as those of the full problem.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(

@@ -59,7 +59,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
     fit,
 };
 
-/// Reads a fit from the library's serialised form. Returns the support vectors in sample order.
+/// Reads a support vector machine from the serialised form of the library. Returns the support vectors in sample order.
 fn machine(fitted: &Value, task: &LibraryTask<'_>) -> Option<Machine> {
     let vectors = fitted.get("instances")?.as_array()?;
     let mut found = vectors.iter().zip(fitted.get("w")?.as_array()?).peekable();
