@@ -51,13 +51,13 @@ impl Binned {
         &self.bins[feature * self.samples..(feature + 1) * self.samples]
     }
 
-    /// Upper edge of the bin `bin`, which must not be the last bin.
+    /// Upper edge of a bin of the feature with the index `feature`. The bin must not be the last.
     pub(super) fn edge(&self, feature: usize, bin: usize) -> f32 {
         self.edges[feature][bin]
     }
 }
 
-/// Bin edges near the quantiles, each between distinct values.
+/// Ascending bin edges near the quantiles of `values`. Each edge lies between two distinct values.
 fn edges(values: &[f32]) -> Vec<f32> {
     let mut sorted = values.to_vec();
     sorted.sort_unstable_by(f32::total_cmp);

@@ -1,4 +1,4 @@
-//! Fitted trees, whose predictions are summed.
+//! Fitted forests and boosted trees. Their prediction is the sum over trees.
 
 use rayon::prelude::*;
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
@@ -11,7 +11,7 @@ use crate::training::file::tensors::{Raw, Tensors};
 use crate::training::output::{OutputScale, check_call, check_finite};
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// Sum of trees, each of which predicts one channel or all channels.
+/// Fitted model whose prediction is the sum of its trees. Each tree predicts one channel or all channels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TreeRegressor {
     channels: Channels,
