@@ -28,10 +28,10 @@ pub(super) struct Member {
     pub(super) channel: Option<usize>,
 }
 
-/// Number of samples per task of a thread.
+/// Number of samples that one parallel task predicts.
 const CHUNK: usize = 64;
 
-/// Channel number in files that marks trees for all channels.
+/// Channel number in model files for a tree that predicts all channels.
 const ALL: u32 = u32::MAX;
 
 const CHANNEL: &str = "trees.channel";
@@ -44,7 +44,7 @@ const THRESHOLD: &str = "trees.threshold";
 const VALUES: &str = "trees.values";
 
 impl TreeRegressor {
-    /// Builds a regressor from trees. The values of the trees, in centred and scaled labels, sum to the prediction.
+    /// Builds a regressor from its trees. The trees predict scaled labels minus their mean; `scale` converts their sum to labels.
     pub(super) fn new(
         channels: Channels,
         shape: FeatureShape,
@@ -86,7 +86,7 @@ impl TreeRegressor {
         stored.on_components(TreeRegressor::from_tensors)
     }
 
-    /// Builds the model from the tensors of a file. Checks that every tree ends in leaves and compares existing features.
+    /// Builds the model from the tensors of a file. Rejects trees with an invalid child, an unknown feature or a number that is not finite.
     fn from_tensors(
         tensors: &Tensors<'_>,
         channels: Channels,
@@ -132,7 +132,7 @@ impl TreeRegressor {
     }
 }
 
-/// True if every child comes after its parent, every feature exists and every number is finite.
+/// True if every child comes after its parent, every compared feature exists and every number is finite.
 fn is_sound(tree: &Tree, features: usize) -> bool {
     let nodes = tree.left.len();
     let mut asked = tree.left.iter().zip(&tree.feature).enumerate();
