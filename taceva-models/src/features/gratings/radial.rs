@@ -159,7 +159,7 @@ fn hann(length: usize) -> Vec<f64> {
     (0..length).map(place).collect()
 }
 
-/// Gray values of a frame; for RGB, (299 R + 587 G + 114 B) / 1000.
+/// Gray values of a frame, in the units of its samples. For RGB, (299 R + 587 G + 114 B) / 1000.
 fn luma(frame: &Frame) -> Vec<f64> {
     let samples: Vec<f64> = frame.samples().map(f64::from).collect();
     match frame.info().format.samples() {
@@ -189,7 +189,7 @@ mod tests {
         }
     }
 
-    /// Test picture of lines with `cycles` cycles per pixel, rotated by `turn` degrees and shifted by `offset` pixels.
+    /// Test picture of parallel lines at `cycles` per pixel. The lines are rotated by `turn` degrees and shifted by `offset` pixels.
     fn lines(cycles: f64, turn: f64, offset: f64) -> Frame {
         let (sin, cos) = turn.to_radians().sin_cos();
         let pixel = |place: u32| {
