@@ -20,10 +20,11 @@ use crate::training::problem::{Problem, Validation, centred, joined, stacked};
 
 /// Ridge regression. For each channel, minimises Σ (y − b − wᵀx)² + λ‖w‖² over samples with features x and label y. The intercept b is not penalised.
 ///
-/// The penalty λ is a strength × the mean eigenvalue of the centred Gram matrix. A strength thus means the same for bright and dark pictures, and for
-/// any number of pictures. Each channel chooses one of 41 strengths: 10⁻⁶, 10⁻⁵·⁷⁵ … 10⁴. The chosen strength has the least squared error on the
-/// validation part. Without a validation part, each group of training samples is left out in turn, or each sample. These errors are exact: blocks of
-/// the hat matrix replace the refits. Strength 0 is least squares without a penalty, solved separately. It needs more samples than features.
+/// The penalty λ is the strength times the mean eigenvalue of the centred Gram matrix. A strength thus means the same for bright and dark pictures,
+/// and for any number of pictures. Each channel chooses one of 41 strengths: 10⁻⁶, 10⁻⁵·⁷⁵ … 10⁴. The chosen strength has the least squared error on
+/// the validation part. Without a validation part, each group of training samples is left out in turn, or each single sample if there are no groups.
+/// These errors are exact: blocks of the hat matrix replace the refits. Strength 0 is least squares without a penalty, solved separately. It needs
+/// more samples than features.
 ///
 /// # Reference
 /// A. E. Hoerl, R. W. Kennard, Technometrics 12 (1970) 55; D. M. Allen, Technometrics 16 (1974) 125 (leaving out).

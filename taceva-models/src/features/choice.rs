@@ -20,7 +20,7 @@ pub struct OpenFeatures {
 }
 
 impl OpenFeatures {
-    /// Splits `settings` into those with the value `auto` and the rest. `None` if no setting is `auto`.
+    /// Separates the settings `size=auto` and `difference=auto` from all others. `None` if there is neither.
     pub fn of(settings: &ModelSettings) -> Option<(OpenFeatures, ModelSettings)> {
         let is_open = |key: &str| settings.get(key) == Some(CHOSEN);
         let open = OpenFeatures {
@@ -120,7 +120,8 @@ pub struct FailedFeatures {
 pub struct FeatureTrial {
     /// Specification of these features.
     pub features: FeatureSpec,
-    /// Root mean square prediction error, in standard deviations of the labels. The mean runs over channels with varying labels, samples and groups.
+    /// Root mean square prediction error of the channels whose labels vary, in standard deviations of the labels. Every group of samples has equal
+    /// weight.
     pub error: f64,
     /// Mean squared error relative to label variance, minus that of the most accurate features. 0 for the most accurate features.
     pub excess: f64,

@@ -56,7 +56,7 @@ pub struct FeatureDistance {
     pub(crate) limits: DistanceLimits,
 }
 
-/// Limits of the two distances of a sample.
+/// Limits of the two distances of a sample: along the principal components, and orthogonal to them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct DistanceLimits {
     /// Limit along the principal components, in standard deviations of the training part.

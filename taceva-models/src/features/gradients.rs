@@ -20,23 +20,23 @@ const ACROSS: f32 = 0.577_350_27;
 /// Slopes of each cell of a frame towards 0° and 90°, and the change of light that slopes do not explain.
 ///
 /// # The light
-/// Three lamps shine at a low angle on a matt surface: red at 0°, green at 120° and blue at 240°. Let `g` be the small slope of the surface, (∂z/∂x, ∂z/∂y).
-/// Lamp `c` with direction `d_c` and elevation `e` changes the light by the factor `1 - cot(e) g·d_c` (Lambert's law to first order). Let `r_c = (frame -
-/// reference) / reference` for colour `c`, and `s` a change common to all three. Then `r_c = p·d_c + s` has one solution. It is computed for each pixel and
-/// averaged over the cell:
+/// Three lamps shine at a low angle on a matt surface: red at 0°, green at 120° and blue at 240°. Let `g` be the small slope of the surface,
+/// (∂z/∂x, ∂z/∂y). Lamp `c` has the direction `d_c` and the elevation `e`. By Lambert's law, to first order, a slope multiplies its light by
+/// `1 - cot(e) g·d_c`. Let `r_c` be the relative change `(frame - reference) / reference` of colour `c`, and `s` a change common to all three.
+/// Then `r_c = p·d_c + s` has one solution. It is computed for each pixel and averaged over the cell:
 ///
 /// `p_x = 2/3 (r_red - (r_green + r_blue) / 2)`, `p_y = (r_green - r_blue) / √3`, `s = (r_red + r_green + r_blue) / 3`.
 ///
-/// `p = -cot(e) g` is positive where the surface faces the lamp. Division by the reference cancels uneven lamps, vignetting and the colour of the gel.
+/// `p = -cot(e) g` is positive where the surface faces the lamp. Division by the reference cancels uneven lamps, vignetting and the gel's colour.
 ///
 /// # Calibration
-/// No calibration with a ball is needed. Lamps with other directions or colours give another fixed linear combination of slopes, which a model learns from its
-/// training labels.
+/// No calibration with a ball is needed. Lamps with other directions or colours give another fixed linear combination of slopes. A model learns it
+/// from its training labels.
 ///
 /// # Limits
-/// The features cannot measure shear, because no point of the surface is tracked. They cannot measure the depth of a flat touch except at its edge. They are
-/// wrong in shadow, in saturated pixels and at slopes too steep for the linear law. A common change of all lamps affects only `s`. A change of a single lamp
-/// cannot be distinguished from a slope.
+/// Shear is not measured, because no point of the surface is tracked. The depth of a flat touch is measured only at its edge. Slopes are wrong in
+/// shadow, in saturated pixels and if they are too steep for the linear law. A common change of all lamps affects only `s`. A change of a single lamp
+/// cannot be told from a slope.
 #[derive(Debug)]
 pub(super) struct Gradients {
     areas: AreaSums,
@@ -140,7 +140,8 @@ mod tests {
         }
     }
 
-    /// Test frame of 16 bits: a surface with a given `slope` at each place, lit by lamps of brightness `lamps`. `dimming` multiplies the light of a flat surface.
+    /// Test frame of 16 bits: a surface with a given `slope` at each place, lit by lamps of brightness `lamps`. `dimming` multiplies the light of a
+    /// flat surface.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

@@ -12,10 +12,10 @@ use super::spec::Color;
 pub enum FeatureKind {
     /// Brightness, averaged over the area of the cell. Changes of light affect it as touches do.
     Pixels,
-    /// Displacement of the gel from its untouched state, measured at nearby markers, and the share of markers that are not visible. Changes of light,
-    /// and details between the markers, have no effect.
+    /// Displacement of the gel from its untouched state, measured at nearby markers, and the share of markers that are not visible. Changes of light
+    /// have little effect. Details between the markers are not seen.
     Markers,
-    /// Slopes of the surface, computed from the colours of three lamps. Shear, and flat areas such as the middle of a flat touch, have no effect.
+    /// Slopes of the surface, computed from the colours of three lamps. Shear, and the middle of a flat touch, are not seen.
     Gradients,
     /// Mean, standard deviation and quantiles of the pixels in the cell. The positions of the pixels within the cell do not matter.
     Statistics,

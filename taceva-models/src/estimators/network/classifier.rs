@@ -16,7 +16,7 @@ use crate::training::file::tensors::Raw;
 use crate::training::output::check_call;
 use crate::training::regressor::{ClassProbabilities, FittedModel, ModelRegressor};
 
-/// Fitted network that classifies. For one channel, it predicts one of the labels seen in training.
+/// Fitted network that predicts the class of its only channel: one of the labels seen in training.
 #[derive(Clone, Debug)]
 pub struct NetworkClassifier {
     channels: Channels,

@@ -11,9 +11,9 @@ use crate::training::problem::centred;
 /// Residuals of left-out samples, computed from one fit to all samples.
 ///
 /// Let H be the hat matrix of that fit, y the labels and e = (I − H)y its residuals. A left-out group g has the residuals (I − H_gg)⁻¹ e_g, where the
-/// index g selects the rows and columns of the group. This is exact if the penalty does not depend on the group. I − H is computed as the sum of
-/// U diag(λ / (σ² + λ)) Uᵀ and R. Here λ is the penalty. The Gram matrix of samples has the eigenvalues σ² and the centred eigenvectors U. R is the part
-/// of the centring matrix that U does not span. At small λ, this form keeps the digits that I − H would lose.
+/// index g selects the rows and columns of the group. This is exact if the penalty does not depend on the group. I − H is computed as the sum of U
+/// diag(λ / (σ² + λ)) Uᵀ and R. Here λ is the penalty. The Gram matrix of samples has the eigenvalues σ² and the centred eigenvectors U. R is the
+/// part of the centring matrix that U does not span. At small λ, this form keeps the digits that I − H would lose.
 pub(super) struct LeaveOut<'s> {
     targets: &'s Mat<f64>,
     eigenvalues: &'s [f64],

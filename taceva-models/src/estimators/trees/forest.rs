@@ -94,7 +94,7 @@ impl RandomForest {
         })
     }
 
-    /// Grows the trees of every channel on `features` and the centred `labels`. Each tree returns its share of the mean.
+    /// Grows the trees of every channel on `features` and the centred `labels`. Their predictions are divided by the number of trees.
     fn grown(
         &self,
         features: &Features,

@@ -20,7 +20,7 @@ pub struct TreeRegressor {
     trees: Vec<Member>,
 }
 
-/// A tree and its channel.
+/// One tree of a model, and the channel that it predicts.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Member {
     pub(super) tree: Tree,

@@ -1,4 +1,4 @@
-//! Discrete Fourier transform for powers of two.
+//! Discrete Fourier transform of sequences whose length is a power of two.
 
 use std::f64::consts::TAU;
 

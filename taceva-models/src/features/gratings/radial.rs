@@ -28,7 +28,7 @@ impl RadialSpectrum {
     /// Number of rings of a spectrum.
     pub const RINGS: usize = 48;
 
-    /// Prepares spectra of pictures of `info`.
+    /// Prepares the spectra of pictures with the size and format `info`.
     pub fn new(info: FrameInfo) -> RadialSpectrum {
         let [width, height] = [info.width, info.height].map(|side| side as usize);
         let side = width.max(height).max(2 * RadialSpectrum::RINGS);

@@ -21,7 +21,7 @@ const REACH: f64 = 1.5;
 /// share of the four nearest markers that are not visible.
 ///
 /// Displacements are interpolated linearly between markers. Cells without a marker nearby contain zeros. Shear displaces markers, and pressure
-/// spreads them. Changes of light, and details smaller than the spacing of markers, have no effect.
+/// spreads them. Changes of light, and details smaller than the spacing of markers, are not seen.
 #[derive(Debug)]
 pub(crate) struct MarkerField {
     tracker: MarkerTracker,
