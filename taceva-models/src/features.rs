@@ -1,4 +1,4 @@
-//! Extraction of features from frames and signals.
+//! Features: the numbers that a model reads, computed from frames or signals.
 
 mod area;
 mod cell_features;

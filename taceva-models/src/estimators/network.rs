@@ -1,4 +1,4 @@
-//! Networks that read features as pictures: a small network of five convolutions, and residual networks.
+//! Neural networks that read the features of a sample as a picture: a small network of five convolutions, and residual networks.
 
 mod appearance;
 mod calibration;
@@ -19,5 +19,5 @@ pub use estimator::NetworkEstimator;
 pub use regressor::NetworkRegressor;
 pub use spacing::{SpacingNetwork, SpacingOutput};
 
-/// Error message for features without picture shape.
+/// Error message for principal components, which do not form a picture.
 const NO_PICTURE: &str = "a network reads pictures, not principal components: remove `pca`";

@@ -1,4 +1,4 @@
-//! Partial least squares: few directions, chosen for the greatest covariance with the labels.
+//! Partial least squares: regression on few directions in feature space, each with the greatest covariance with the labels.
 
 mod simpls;
 
@@ -16,11 +16,12 @@ use crate::training::info::ModelInfo;
 use crate::training::problem::{Problem, Validation, centred, joined, stacked};
 use crate::training::trials::{FOLDS, folds, folds_of};
 
-/// Partial least squares, fitted to all channels at once.
+/// Partial least squares: regression on few directions in feature space. The directions are shared by all channels.
 ///
-/// Each channel has its own number of directions; with 0 directions, the model predicts the mean. The chosen number has the least squared error on the
-/// validation part, or on left-out samples of the training part. Up to ten groups are left out in turn, and more groups are combined in ten folds. Without
-/// groups, ten runs of neighbouring samples are left out. Single samples are not left out, because neighbours in time are similar.
+/// Each channel uses its own number of directions. With 0 directions, the model predicts the mean label. The number has the least squared error on
+/// the validation part. Without a validation part, the error comes from left-out training samples. Up to ten groups are left out one by one. More
+/// groups are combined in ten folds. Without groups, ten runs of consecutive samples are left out. Single samples are not, because samples close in
+/// time are similar.
 ///
 /// # Reference
 /// S. de Jong, Chemometr. Intell. Lab. Syst. 18 (1993) 251 (SIMPLS).
@@ -57,7 +58,7 @@ impl Default for Pls {
 }
 
 impl Pls {
-    /// Registry entry.
+    /// Entry of partial least squares in the model registry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "pls",
         about: "partial least squares: few directions, each with the greatest covariance with the labels",
@@ -84,7 +85,8 @@ impl Pls {
         })
     }
 
-    /// Errors for each number of directions, descending to 0. Of numbers with equal errors, the last and smallest number is chosen.
+    /// Mean squared error of each channel over the held-out samples, for each number of directions. Rows descend to 0 directions, so ties choose the
+    /// smallest.
     fn choose(
         &self,
         problem: &Problem<'_>,
@@ -113,7 +115,7 @@ impl Pls {
     }
 }
 
-/// Summed squared errors of each channel for every number of directions. Each group is predicted by a fit without this group.
+/// Squared errors of each channel, summed over all samples, for each number of directions. Each group is predicted by a fit to the other groups.
 fn left_out(
     problem: &Problem<'_>,
     whole: &Design<'_>,
@@ -151,7 +153,7 @@ fn left_out(
     Ok(total)
 }
 
-/// Summed squared errors of each channel for every number of directions, descending to 0.
+/// Squared errors of each channel, summed over the samples of `design`. One row per number of directions, descending to 0.
 fn squares_on(directions: &Directions, design: &Design<'_>, labels: &Mat<f64>) -> Errors {
     let scores = design.times(directions.weights());
     let mut residuals = labels.clone();

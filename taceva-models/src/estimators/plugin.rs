@@ -1,4 +1,4 @@
-//! Models of plugins, stored as bytes that only the plugin can read.
+//! Models that a plugin fits. TacEva stores them as bytes, which only the plugin can read.
 
 mod estimator;
 mod regressor;

@@ -21,7 +21,7 @@ use crate::estimators::trees::{GradientBoosting, RandomForest};
 use crate::settings::Suggestion;
 use crate::training::info::ModelInfo;
 
-/// All models, the simplest first.
+/// All built-in models, the simplest first.
 pub const ALL: &[ModelInfo] = &[
     Baseline::INFO,
     Ridge::INFO,
@@ -65,7 +65,7 @@ pub fn find(name: &str) -> Result<&'static ModelInfo, UnknownModel> {
 pub struct UnknownModel {
     name: String,
     suggestion: Suggestion,
-    /// Cargo feature that the build lacks, if this is the reason.
+    /// Cargo feature that contains the model, if this program was built without it. `None` for any other unknown name.
     feature: Option<&'static str>,
 }
 

@@ -1,4 +1,4 @@
-//! Ridge regression. All strengths are solved from one spectrum.
+//! Ridge regression. One eigendecomposition solves it for all penalties.
 
 mod leave_out;
 mod strength;
@@ -18,12 +18,13 @@ use crate::training::fit::estimator;
 use crate::training::info::ModelInfo;
 use crate::training::problem::{Problem, Validation, centred, joined, stacked};
 
-/// Ridge regression: minimises Σ (y − b − wᵀx)² + λ‖w‖² over samples with features x and label y, for each channel. The intercept b is not penalised.
+/// Ridge regression. For each channel, minimises Σ (y − b − wᵀx)² + λ‖w‖² over samples with features x and label y. The intercept b is not penalised.
 ///
-/// λ is the strength × the mean eigenvalue of the centred Gram matrix. A strength therefore has the same meaning for bright and dark pictures, and
-/// for many and few pictures. Each channel has one of the 41 strengths 10⁻⁶, 10⁻⁵·⁷⁵ … 10⁴: the strength of least squared error on the validation
-/// part. Without a validation part, groups of the training part are left out in turn, or single samples. Leave-out errors are exact, computed by
-/// blocks of the hat matrix without a refit. A strength of 0 is least squares, refined to the last digits; it needs more samples than features.
+/// The penalty λ is the strength times the mean eigenvalue of the centred Gram matrix. A strength thus means the same for bright and dark pictures,
+/// and for any number of pictures. Each channel chooses one of 41 strengths: 10⁻⁶, 10⁻⁵·⁷⁵ … 10⁴. The chosen strength has the least squared error on
+/// the validation part. Without a validation part, each group of training samples is left out in turn, or each single sample if there are no groups.
+/// These errors are exact: blocks of the hat matrix replace the refits. Strength 0 is least squares without a penalty, solved separately. It needs
+/// more samples than features.
 ///
 /// # Reference
 /// A. E. Hoerl, R. W. Kennard, Technometrics 12 (1970) 55; D. M. Allen, Technometrics 16 (1974) 125 (leaving out).
@@ -52,7 +53,7 @@ impl Default for Ridge {
 }
 
 impl Ridge {
-    /// Registry entry.
+    /// Entry of ridge regression in the model registry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "ridge",
         about: "least squares with a penalty on large weights; fast, and hard to beat on few recordings",
@@ -62,7 +63,7 @@ impl Ridge {
         load: LinearRegressor::load,
     };
 
-    /// Builds the estimator from `settings`.
+    /// Builds the unfitted ridge regression from `settings`.
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
@@ -79,7 +80,7 @@ impl Ridge {
         })
     }
 
-    /// Ridge regression on unscaled features with chosen strengths.
+    /// Ridge regression on unscaled features. Each channel's strength is chosen by error. With `refit`, the final fit includes the validation part.
     pub(crate) fn unscaled(refit: bool) -> Ridge {
         Ridge {
             scale: FeatureScale::None,
@@ -88,7 +89,7 @@ impl Ridge {
         }
     }
 
-    /// Strength for every channel; `None` if the user set none.
+    /// Strength of the penalty, equal for all channels, as set by the user. `None` if each channel chooses its own.
     pub fn strength(&self) -> Option<f64> {
         self.strength
     }
@@ -128,7 +129,7 @@ impl Ridge {
     }
 }
 
-/// Ridge solutions for every penalty, from one spectrum.
+/// Ridge solutions of one fit for every penalty, all computed from one eigendecomposition.
 struct Path<'s, 'd, 'a> {
     spectrum: &'s Spectrum<'d, 'a>,
     design: &'d Design<'a>,
@@ -137,7 +138,7 @@ struct Path<'s, 'd, 'a> {
 }
 
 impl Path<'_, '_, '_> {
-    /// Weights for pairs of target channel and penalty. The result has one column per pair.
+    /// Weights of the features. One column per pair in `columns`, which contains the index of a channel and a penalty.
     fn weights(&self, columns: &[(usize, f64)]) -> Mat<f64> {
         let eigenvalues = self.spectrum.eigenvalues();
         let coefficients = Mat::from_fn(eigenvalues.len(), columns.len(), |row, column| {
@@ -147,7 +148,7 @@ impl Path<'_, '_, '_> {
         self.spectrum.weights(coefficients.as_ref())
     }
 
-    /// Mean squared error of each channel at each penalty.
+    /// Squared error, averaged over the samples of `part`: one row per penalty, one column per channel.
     fn errors_on(&self, part: &Validation<'_>) -> Errors {
         let channels = self.rotated.ncols();
         let columns: Vec<(usize, f64)> = self
@@ -250,7 +251,7 @@ impl LinearEstimator for Ridge {
     }
 }
 
-/// Fits the model to training and validation parts together with the chosen penalties.
+/// Fits the final model to the training and validation parts together. `columns` contains each channel's index and chosen penalty.
 fn refit(
     problem: &Problem<'_>,
     design: &Design<'_>,

@@ -1,4 +1,4 @@
-//! Decision trees grown on histograms, combined to forests or by boosting. Each node compares one feature with a threshold.
+//! Decision trees, grown on histograms of binned features. Random forests average many trees, and gradient boosting sums them.
 
 mod bins;
 mod boosting;

@@ -1,8 +1,8 @@
-//! Exact area averages over the cells of a grid.
+//! Exact averages of pixels over the areas of grid cells.
 
 use taceva_core::{Frame, FrameInfo};
 
-/// Overlap of `target` cells with `source` pixels along one axis, in integer units. A cell is `cell` units long, a pixel `pixel` units.
+/// Overlap of `target` cells with `source` pixels along one axis. Lengths are whole units: a cell has `cell` units, a pixel `pixel` units.
 #[derive(Clone, Debug)]
 struct Axis {
     spans: Vec<Span>,
@@ -10,7 +10,7 @@ struct Axis {
     cell: u32,
 }
 
-/// Pixels under one cell: whole pixels, and a partial pixel at each end.
+/// Pixels that one cell covers along an axis: a range of whole pixels, and a partly covered pixel at each end.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Span {
     whole: std::ops::Range<usize>,
@@ -18,7 +18,7 @@ struct Span {
     after: Option<PartialPixel>,
 }
 
-/// A pixel that overlaps the cell by `units` units.
+/// Pixel that the cell covers only by `units` units of its length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct PartialPixel {
     pixel: usize,
@@ -26,7 +26,7 @@ struct PartialPixel {
 }
 
 impl Axis {
-    /// Computes the overlap. `source` must be at least `target`, and neither may be 0.
+    /// Computes the overlap of `target` cells with `source` pixels. `source` must be at least `target`, and both must be positive.
     fn new(source: u32, target: u32) -> Axis {
         let divisor = greatest_common_divisor(source, target);
         let (cell, pixel) = (source / divisor, target / divisor);
@@ -60,7 +60,7 @@ fn greatest_common_divisor(a: u32, b: u32) -> u32 {
     }
 }
 
-/// Sums a frame over the cells of a coarser grid, exactly, in integers.
+/// Sums the pixels of a frame over the cells of a coarser grid. Partly covered pixels count by their covered area. All sums are exact integers.
 #[derive(Clone, Debug)]
 pub(super) struct AreaSums {
     rows: Axis,
@@ -69,10 +69,11 @@ pub(super) struct AreaSums {
 }
 
 impl AreaSums {
-    /// Maximum number of rows of a frame: 65,535 × 65,535 is the largest column sum that fits into 32 bits.
+    /// Maximum number of rows of a frame. The sum over a column of 65,535 pixels of 16 bits still fits into 32 bits.
     pub(super) const ROWS_MAX: u32 = 65_535;
 
-    /// Prepares sums for frames of `info` and a grid of `width` × `height` cells. The grid must not exceed the frame.
+    /// Prepares sums for frames of `info` and a grid of `width` × `height` cells. The grid must have no more cells than the frame has pixels, along
+    /// each side.
     pub(super) fn new(info: FrameInfo, width: u32, height: u32) -> AreaSums {
         AreaSums {
             rows: Axis::new(info.height, height),
@@ -81,14 +82,14 @@ impl AreaSums {
         }
     }
 
-    /// Sum of a cell in which every pixel has the greatest value.
+    /// Sum over one cell if every pixel has the greatest possible value.
     pub(super) fn full_scale(&self) -> u64 {
         u64::from(self.rows.cell)
             * u64::from(self.columns.cell)
             * u64::from(self.info.format.full_scale())
     }
 
-    /// Calls `take` with the sums of each cell, row by row: one sum for gray frames, three for RGB frames.
+    /// Calls `take` once per cell, row by row. Gray frames have one sum per cell, RGB frames one per colour.
     pub(super) fn for_each(&self, frame: &Frame, mut take: impl FnMut(&[u64])) {
         let samples = self.info.format.samples();
         let row_samples = self.info.width as usize * samples;

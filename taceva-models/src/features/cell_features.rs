@@ -1,4 +1,4 @@
-//! Interface of feature kinds, which compute a fixed number of values per cell.
+//! Interface of the kinds of features. Each kind computes a fixed number of values per cell of a frame.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ pub(super) trait CellFeatures: fmt::Debug + Send + Sync {
     /// Number of values per cell.
     fn depth(&self) -> usize;
 
-    /// Writes the values of every cell of `frame`. The caller must check the size and format of the frame.
+    /// Writes the values of every cell of `frame` to `into`. The caller must check the size and format of the frame.
     ///
     /// # Shapes
     /// `into`: `[height, width, depth]`, completely overwritten.

@@ -1,4 +1,4 @@
-//! Choice of feature settings left open: the simplest features that do not lose accuracy.
+//! Choice of feature settings that the user leaves to TacEva. The simplest features without a loss of accuracy are chosen.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -9,10 +9,10 @@ use taceva_core::InputInfo;
 use crate::features::{DIFFERENCE, FeatureSpec, SIZE};
 use crate::settings::ModelSettings;
 
-/// Word with which a user leaves a setting to TacEva.
+/// Setting value by which the user leaves a setting to TacEva.
 const CHOSEN: &str = "auto";
 
-/// Feature settings that TacEva chooses.
+/// Feature settings that TacEva chooses: size, difference, or both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OpenFeatures {
     size: bool,
@@ -20,7 +20,7 @@ pub struct OpenFeatures {
 }
 
 impl OpenFeatures {
-    /// Splits `settings` into open settings and the rest; `None` if no setting is open.
+    /// Separates the settings `size=auto` and `difference=auto` from all others. `None` if there is neither.
     pub fn of(settings: &ModelSettings) -> Option<(OpenFeatures, ModelSettings)> {
         let is_open = |key: &str| settings.get(key) == Some(CHOSEN);
         let open = OpenFeatures {
@@ -36,8 +36,9 @@ impl OpenFeatures {
         (open.size || open.difference).then_some((open, rest))
     }
 
-    /// Candidate features around `spec`, the simplest first. Grids have 1/4, 1/2, 1 and 2 times the resolution of `spec`, as far as frames of `info`
-    /// allow. Signals have one grid. Each grid is tried without a difference and, if there is a reference, with the difference from the reference.
+    /// Feature specifications to compare, the simplest first. They equal `spec` except for the settings that TacEva chooses. If the size is chosen,
+    /// grids have 1/4, 1/2, 1 and 2 times the resolution of `spec`, as far as frames of `info` allow. Signals have one grid. If the difference is
+    /// chosen, each grid is tried without and with it. Without a reference, or for markers and gradients alone, the difference is not tried.
     ///
     /// ```
     /// use taceva_core::{FrameInfo, PixelFormat};
@@ -94,41 +95,42 @@ impl OpenFeatures {
 /// Record of a choice of features.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FeatureChoice {
-    /// Number of held-out samples of the training part that were scored.
+    /// Number of training samples that were held out and scored.
     pub samples: usize,
-    /// Number of independent groups among the scored samples.
+    /// Number of independent groups, such as contact points, among the scored samples.
     pub groups: usize,
-    /// Features tried, the simplest first.
+    /// Results of the compared features, the simplest first.
     pub tried: Vec<FeatureTrial>,
     /// Features for which no model could be fitted.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub failed: Vec<FailedFeatures>,
 }
 
-/// Features for which no model could be fitted, with the reason.
+/// Features for which no model could be fitted, and the reason.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FailedFeatures {
-    /// Specification of the features.
+    /// Specification of these features.
     pub features: FeatureSpec,
-    /// Reason for the failure.
+    /// Reason for which the fit failed.
     pub reason: String,
 }
 
-/// Result of features that were tried.
+/// Accuracy of the models fitted to one of the compared features.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FeatureTrial {
-    /// Specification of the features.
+    /// Specification of these features.
     pub features: FeatureSpec,
-    /// Root mean square error relative to the standard deviation of labels, over the varying channels.
+    /// Root mean square prediction error of the channels whose labels vary, in standard deviations of the labels. Every group of samples has equal
+    /// weight.
     pub error: f64,
-    /// Unexplained share of the label variance, minus the same share for the features with the least error. 0 for the features with the least error.
+    /// Mean squared error relative to label variance, minus that of the most accurate features. 0 for the most accurate features.
     pub excess: f64,
-    /// Standard error of the excess, computed by group.
+    /// Standard error of `excess`, from its scatter between groups.
     pub standard_error: f64,
 }
 
 impl FeatureTrial {
-    /// True if the excess is at most one standard error.
+    /// True if the features are at most one standard error less accurate than the most accurate features.
     fn is_enough(&self) -> bool {
         self.excess <= self.standard_error
     }
@@ -139,7 +141,7 @@ impl FeatureTrial {
 }
 
 impl FeatureChoice {
-    /// Compares features by the loss of each scored sample: squared error relative to label variance, averaged over channels.
+    /// Compares features by their losses. The loss of a sample is its squared error relative to label variance, averaged over channels.
     ///
     /// # Shapes
     /// `tried`, the simplest first: `[samples]` each. `groups`: `[samples]`, the number of each sample's independent group.
@@ -172,7 +174,7 @@ impl FeatureChoice {
         }
     }
 
-    /// Adds features for which no model could be fitted, with the reasons.
+    /// Sets the list of features for which no model could be fitted, with the reasons.
     #[must_use]
     pub fn with_failed(
         mut self,
@@ -185,12 +187,12 @@ impl FeatureChoice {
         self
     }
 
-    /// The simplest features whose excess is at most one standard error; `None` without such features.
+    /// The simplest features that are at most one standard error less accurate than the best. `None` if there are none.
     pub fn chosen(&self) -> Option<&FeatureTrial> {
         self.tried.iter().find(|trial| trial.is_enough())
     }
 
-    /// True if only the finest grid is accurate enough. A finer grid may then be better still.
+    /// True if only the finest grid is accurate enough. A still finer grid may then improve the model.
     pub fn may_gain(&self) -> bool {
         let finest = self.tried.iter().map(FeatureTrial::cells).max();
         let enough = self.tried.iter().filter(|trial| trial.is_enough());
@@ -200,7 +202,7 @@ impl FeatureChoice {
     }
 }
 
-/// Mean loss of each group. Groups thereby have equal weight.
+/// Mean loss over the samples of each group, in ascending order of group numbers. A large group thus counts no more than a small one.
 fn of_groups(losses: &[f64], groups: &[usize]) -> Vec<f64> {
     let mut sums = BTreeMap::<usize, (f64, f64)>::new();
     for (loss, group) in losses.iter().zip(groups) {

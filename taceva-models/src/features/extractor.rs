@@ -15,7 +15,7 @@ use super::signals::Taxels;
 use super::spec::{Color, FeatureSpec};
 use super::statistics::Statistics;
 
-/// Extracts features from frames of one kind, or from signals of one grid. Threads can share an extractor.
+/// Extracts features from frames of one size and format, or from signals of one grid of taxels. Threads can share an extractor.
 ///
 /// The features of a sample depend only on its frame or signals, and on the reference.
 ///
@@ -43,22 +43,22 @@ pub struct Extractor {
     of: Of,
 }
 
-/// Input of features.
+/// Input of an extractor, with the prepared computation.
 #[derive(Clone, Debug)]
 enum Of {
-    /// Frames of one kind, with one extractor part per requested kind of features, in order.
+    /// Frames of one size and format. The list contains one computation per requested kind of features, in order.
     Frames(FrameInfo, Vec<Arc<dyn CellFeatures>>),
-    /// Signals of one grid.
+    /// Signals of one grid of taxels.
     Signals(Taxels),
 }
 
 impl Extractor {
-    /// Builds an extractor of `spec` for frames or signals of `info`. Differences, markers and gradients need the contact-free frame or signals as
-    /// `reference`.
+    /// Builds an extractor of the features `spec` from frames or signals of `info`. `reference` is the contact-free frame or signals. Differences,
+    /// markers and gradients need it.
     ///
     /// # Errors
-    /// [`FeatureError`] if the frame is smaller than the features, gray although colour is requested, or has too many rows. Also if a needed
-    /// reference is missing, of another kind, or lacks requested markers. Also if the grid of the signals differs from the grid of `spec`.
+    /// [`FeatureError`] in four cases. The frame is smaller than the features, gray although colour is requested, or has too many rows. A needed
+    /// reference is missing or of another kind. The reference lacks requested markers. The grid of the signals differs from the grid of `spec`.
     pub fn new(
         spec: FeatureSpec,
         info: impl Into<InputInfo>,
@@ -94,7 +94,7 @@ impl Extractor {
         &self.spec
     }
 
-    /// Input: frames of one kind, or signals of one grid.
+    /// Expected input: size and format of frames, or grid of signals.
     pub fn input(&self) -> InputInfo {
         match &self.of {
             Of::Frames(info, _) => (*info).into(),
@@ -102,13 +102,13 @@ impl Extractor {
         }
     }
 
-    /// Writes the features of a frame or of signals.
+    /// Computes the features of one frame, or of the signals of one instant.
     ///
     /// # Shapes
     /// `into`: `[height, width, depth]` of [`shape`](Extractor::shape), allocated by the caller.
     /// # Units
-    /// Signals: the unit of the signals. Pixels, statistics and their differences: full scale is 1. Displacements of markers: marker spacings. Slopes: a unit
-    /// that depends on the elevation of the lamps.
+    /// Signals keep their unit. Brightness and its statistics: full scale is 1. Displacements of markers: marker spacings. Slopes have a unit that
+    /// depends on the elevation of the lamps.
     /// # Errors
     /// [`FeatureError::Kind`] for a frame of another size or format. [`FeatureError::Input`] for the wrong kind of input, or signals of another grid.
     /// [`FeatureError::Buffer`] if the length of `into` is wrong.
@@ -144,7 +144,7 @@ impl Extractor {
         Ok(())
     }
 
-    /// Writes the values of all `parts`. The values of one cell are adjacent.
+    /// Writes the features of `frame` to `into`. Each of `parts` computes one kind. The values of one cell are adjacent.
     fn write(&self, parts: &[Arc<dyn CellFeatures>], frame: &Frame, into: &mut [f32]) {
         let shape = self.shape();
         if let [only] = parts {
@@ -185,7 +185,7 @@ impl Extractor {
     }
 }
 
-/// Prepares one extractor part per requested kind of features, for frames of `info`.
+/// Prepares the computation of each requested kind of features, for frames of `info`.
 fn parts(
     spec: &FeatureSpec,
     info: FrameInfo,

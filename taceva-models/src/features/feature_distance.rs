@@ -1,32 +1,33 @@
-//! Distance of a sample from the training part in feature space.
+//! Distance of a sample from the training part in feature space. It detects samples that are unlike those of the training part.
 
 use taceva_core::{FeatureShape, Features, ModelError, Progress, single, whole_size};
 
 use super::pca::Pca;
 use crate::linalg::invalid;
 
-/// Maximum number of training samples used for the distance, evenly spaced over the part.
+/// Maximum number of training samples from which the distance is fitted. They are evenly spaced over the training part.
 const SAMPLES_MOST: usize = 256;
-/// Minimum number of training samples for a distance, because fewer give no useful limit.
+/// Minimum number of training samples. Fewer samples do not give a useful limit of the distance.
 const SAMPLES_LEAST: usize = 20;
-/// Number of blocks of neighbouring samples, which are held out in turn if there are no groups.
+/// Number of blocks of consecutive samples. Without groups, whole blocks are held out to find the limits.
 const BLOCKS: usize = 8;
-/// Maximum number of principal directions.
+/// Maximum number of principal components of the training samples.
 const DIRECTIONS_MOST: usize = 16;
-/// Minimum number of samples per principal direction.
+/// Minimum number of training samples per principal component.
 const SAMPLES_PER_DIRECTION: usize = 4;
-/// Maximum number of cells along a side. Pictures with more cells are averaged first.
+/// Maximum number of cells along a side. Blocks of cells are averaged if a sample has more.
 const SIDE_MOST: usize = 32;
-/// Share of held-out training samples with a distance within the limit.
+/// Share of held-out training samples whose distance does not exceed the limit.
 const WITHIN: f64 = 0.99;
-/// Minimum limit of the residual, relative to the spread of the features. Prevents rounding errors from counting as novelty.
+/// Minimum limit of the residual, relative to the spread of the features. Without it, rounding errors would count as novelty.
 const ROUNDING: f64 = 1e-5;
 
-/// Distance of features from a training part, relative to a limit. 99 of 100 held-out training samples are within the limit.
+/// Distance of a sample's features from the training part, relative to a limit. 99 of 100 held-out training samples are within the limit.
 ///
-/// The part is described by its leading principal components. A sample has two distances. The first is along the components, in standard deviations of the part
-/// (Hotelling's T). The second is orthogonal to the components (the root of Q, the residual). Each is divided by its limit, and the greater quotient is the
-/// reported distance. Limits are quantiles over samples that were held out by contact point or block.
+/// The training part is described by its leading principal components. A sample has two distances. The first is along the components, in standard
+/// deviations of the training part (Hotelling's T). The second is the root mean square of the residual, which is orthogonal to the components (Q
+/// statistic). Each distance is divided by its limit, and the greater quotient is reported. Limits are quantiles over samples that were held out by
+/// contact point or block.
 ///
 /// ```
 /// use taceva_core::{FeatureShape, Features, SilentProgress};
@@ -47,28 +48,28 @@ pub struct FeatureDistance {
     pub(crate) shape: FeatureShape,
     /// Mean of each feature after averaging of cells.
     pub(crate) mean: Vec<f64>,
-    /// Orthonormal directions, concatenated. Single precision halves the size of the file.
+    /// Orthonormal principal components of the training part, one after the other. Single precision halves the size of the file.
     pub(crate) directions: Vec<f32>,
-    /// Standard deviation of the part along each direction.
+    /// Standard deviation of the training samples along each principal component.
     pub(crate) deviations: Vec<f64>,
     /// Limits of both distances of a sample.
     pub(crate) limits: DistanceLimits,
 }
 
-/// Limits of the two distances of a sample.
+/// Limits of the two distances of a sample: along the principal components, and orthogonal to them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct DistanceLimits {
-    /// Limit along the directions, in standard deviations of the part.
+    /// Limit along the principal components, in standard deviations of the training part.
     pub(crate) along: f64,
-    /// Limit orthogonal to the directions, in units of the features.
+    /// Limit orthogonal to the principal components, in units of the features.
     pub(crate) beside: f64,
 }
 
 impl FeatureDistance {
-    /// Fits the distance to `training`; `None` for fewer than 20 samples, or if all samples are equal.
+    /// Fits the distance to the training samples `training`. `None` for fewer than 20 samples, or if all samples are equal.
     ///
-    /// `groups` contains the group number of each sample. All samples of a group are held out together. Without groups, blocks of neighbouring samples are held
-    /// out.
+    /// `groups` contains the group number of each sample. All samples of a group are held out together. Without groups, blocks of consecutive samples
+    /// are held out.
     ///
     /// # Errors
     /// [`ModelError`] if a feature is not finite, the number of `groups` is wrong, or `progress` was cancelled.
@@ -146,19 +147,19 @@ impl FeatureDistance {
         self.shape
     }
 
-    /// True if `distance` is above 1 or NaN, which means that the sample is unlike the training part.
+    /// True if `distance` is above 1 or NaN. The sample is then unlike the training part.
     pub fn is_outside(distance: f64) -> bool {
         distance.is_nan() || distance > 1.0
     }
 
-    /// Number of averaged features of a sample of `shape`: the length of the mean and of each direction.
+    /// Number of features of a sample of `shape` after averaging of cells. The mean and each principal component have this length.
     pub(crate) fn width_of(shape: FeatureShape) -> usize {
         let [rows, columns] = steps(shape);
         shape.height.div_ceil(rows) * shape.width.div_ceil(columns) * shape.depth
     }
 }
 
-/// Distances of a sample from a part, along the directions and orthogonal to them.
+/// Distances of a sample from a set of samples: along its principal components, and orthogonal to them.
 #[derive(Clone, Copy, Debug)]
 struct Apart {
     along: f64,
@@ -166,7 +167,7 @@ struct Apart {
 }
 
 impl DistanceLimits {
-    /// Limits that include 99 of 100 of the distances `apart`. `spread` is the spread of the features.
+    /// Limits that 99 of 100 of the distances `apart` do not exceed. `spread` is the root mean square of the centred features.
     fn of(apart: &[Apart], spread: f64) -> DistanceLimits {
         let along = apart.iter().map(|apart| apart.along);
         let beside = apart.iter().map(|apart| apart.beside);
@@ -193,17 +194,17 @@ impl DistanceLimits {
     }
 }
 
-/// Principal directions, in which samples vary.
+/// Mean, principal components and spread of a set of samples.
 struct Span {
     mean: Vec<f64>,
     directions: Vec<f32>,
     deviations: Vec<f64>,
-    /// Root mean square of the centred features.
+    /// Root mean square of the features minus their means, over samples and features.
     spread: f64,
 }
 
 impl Span {
-    /// Principal directions of the samples `seen`; `None` if no feature varies.
+    /// Computes the principal components of the samples `seen`; `None` if no feature varies.
     fn of(seen: &Features, progress: &dyn Progress) -> Result<Option<Span>, ModelError> {
         let most = (seen.samples() / SAMPLES_PER_DIRECTION).clamp(1, DIRECTIONS_MOST);
         let pca = Pca::up_to(most, seen, progress)?;
@@ -265,7 +266,8 @@ fn take_along(centred: &mut [f64], direction: &[f32]) -> f64 {
     along
 }
 
-/// Splits samples into halves by the parity of their group number. Without groups, or if a half is too small, assigns blocks alternately.
+/// Splits samples into two halves: those of even and of odd group numbers. Without groups, or if a half is too small, blocks of consecutive samples
+/// alternate.
 fn halves(chosen: &[usize], groups: Option<&[u32]>) -> [Vec<usize>; 2] {
     let second = |is_second: &dyn Fn(usize) -> bool| -> [Vec<usize>; 2] {
         let (second, first) = (0..chosen.len()).partition(|&place| is_second(place));
@@ -278,14 +280,14 @@ fn halves(chosen: &[usize], groups: Option<&[u32]>) -> [Vec<usize>; 2] {
         .unwrap_or_else(|| second(&|place| place * BLOCKS / chosen.len() % 2 == 1))
 }
 
-/// 99 % quantile of `values`.
+/// Smallest of `values` that at least 99 % of the values do not exceed.
 fn quantile(mut values: Vec<f64>) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
     let rank = whole_size((values.len() as f64 * WITHIN).ceil());
     values[rank.clamp(1, values.len()) - 1]
 }
 
-/// Numbers of rows and columns of cells that are averaged to one cell. Flat lists are not averaged, because adjacent values are not neighbours.
+/// Height and width of the blocks of cells that are averaged, in cells. Flat lists are not averaged, because adjacent values are not neighbours.
 fn steps(shape: FeatureShape) -> [usize; 2] {
     match shape.height {
         1 => [1, 1],
@@ -293,7 +295,7 @@ fn steps(shape: FeatureShape) -> [usize; 2] {
     }
 }
 
-/// Samples with averaged cells, each as a flat list.
+/// Averages blocks of cells in every sample. The results are flat lists, one per sample.
 fn averaged(shape: FeatureShape, features: &Features) -> Result<Features, ModelError> {
     let width = FeatureDistance::width_of(shape);
     let mut values = Vec::with_capacity(width * features.samples());
@@ -303,7 +305,7 @@ fn averaged(shape: FeatureShape, features: &Features) -> Result<Features, ModelE
     Features::new(FeatureShape::flat(width), values)
 }
 
-/// Appends the means over blocks of cells of one sample. Flat lists and small pictures are appended unchanged.
+/// Averages blocks of cells in one sample, and appends the means to `into`. Flat lists and small pictures are appended unchanged.
 fn average(shape: FeatureShape, sample: &[f32], into: &mut Vec<f32>) {
     let FeatureShape {
         height,

@@ -8,45 +8,45 @@ use super::error::FeatureError;
 use super::pixels::{ratio, signed};
 use super::spec::FeatureSpec;
 
-/// Smallest brightness assumed for the reference, as a share of full scale. Limits the amplification of noise in dark areas.
+/// Smallest brightness assumed for the reference, as a share of full scale. Division by a smaller brightness would amplify noise in dark areas.
 const LIT: f32 = 1.0 / 16.0;
-/// Number of integer steps per unit. Pixel values are integers until they are averaged.
+/// Number of integer steps for a relative change of 1. Values of pixels are integers until they are averaged.
 const STEPS: f32 = 16_384.0;
-/// Integer step that represents the value 0. Values are limited to −2 to 2.
+/// Integer that represents a relative change of 0. The representable range is −2 to 2.
 const ZERO: u16 = 32_768;
-/// Factor 1 / √3 from the difference of the lamps at 120° and 240° to the slope across the lamp at 0°.
+/// Factor 1 / √3. It converts the difference between the lamps at 120° and 240° to the slope towards 90°.
 const ACROSS: f32 = 0.577_350_27;
 
-/// Slopes of each cell towards 0° and 90°, and the change of light that these slopes do not explain.
+/// Slopes of each cell of a frame towards 0° and 90°, and the change of light that slopes do not explain.
 ///
 /// # The light
-/// Three lamps shine at a low angle on a matt surface: red at 0°, green at 120° and blue at 240°. Let `g` be the small slope of the surface, (∂z/∂x, ∂z/∂y).
-/// Lamp `c` with direction `d_c` and elevation `e` changes the light by the factor `1 - cot(e) g·d_c` (Lambert's law to first order). Let `r_c = (frame -
-/// reference) / reference` for colour `c`, and `s` a change common to all three. Then `r_c = p·d_c + s` has one solution. It is computed for each pixel and
-/// averaged over the cell:
+/// Three lamps shine at a low angle on a matt surface: red at 0°, green at 120° and blue at 240°. Let `g` be the small slope of the surface,
+/// (∂z/∂x, ∂z/∂y). Lamp `c` has the direction `d_c` and the elevation `e`. By Lambert's law, to first order, a slope multiplies its light by
+/// `1 - cot(e) g·d_c`. Let `r_c` be the relative change `(frame - reference) / reference` of colour `c`, and `s` a change common to all three.
+/// Then `r_c = p·d_c + s` has one solution. It is computed for each pixel and averaged over the cell:
 ///
 /// `p_x = 2/3 (r_red - (r_green + r_blue) / 2)`, `p_y = (r_green - r_blue) / √3`, `s = (r_red + r_green + r_blue) / 3`.
 ///
-/// `p = -cot(e) g` is positive where the surface faces the lamp. Division by the reference cancels uneven lamps, vignetting and the colour of the gel.
+/// `p = -cot(e) g` is positive where the surface faces the lamp. Division by the reference cancels uneven lamps, vignetting and the gel's colour.
 ///
 /// # Calibration
-/// No calibration with a ball is needed. Lamps with other directions or colours give another fixed linear combination of slopes, which a model learns from its
-/// training labels.
+/// No calibration with a ball is needed. Lamps with other directions or colours give another fixed linear combination of slopes. A model learns it
+/// from its training labels.
 ///
 /// # Limits
-/// The features cannot measure shear, because no point of the surface is tracked. They cannot measure the depth of a flat touch except at its edge. They are
-/// wrong in shadow, in saturated pixels and at slopes too steep for the linear law. A common change of all lamps affects only `s`. A change of a single lamp
-/// cannot be distinguished from a slope.
+/// Shear is not measured, because no point of the surface is tracked. The depth of a flat touch is measured only at its edge. Slopes are wrong in
+/// shadow, in saturated pixels and if they are too steep for the linear law. A common change of all lamps affects only `s`. A change of a single lamp
+/// cannot be told from a slope.
 #[derive(Debug)]
 pub(super) struct Gradients {
     areas: AreaSums,
     reference: Vec<f32>,
-    /// Reciprocal brightness of the reference. The brightness is at least `LIT` of full scale.
+    /// Reciprocal of the reference brightness, for each colour of each pixel. The brightness is taken as at least `LIT` of full scale.
     inverse: Vec<f32>,
 }
 
 impl Gradients {
-    /// Prepares gradients for frames like `reference`, no smaller than the grid of `spec`.
+    /// Prepares gradients for frames of the same size and format as `reference`. The frame must be at least as large as the grid of `spec`.
     pub(super) fn new(spec: &FeatureSpec, reference: &Frame) -> Result<Gradients, FeatureError> {
         let info = reference.info();
         if info.format.samples() != 3 {
@@ -65,7 +65,7 @@ impl Gradients {
         })
     }
 
-    /// Slopes and common change of each pixel, in integer steps.
+    /// Both slopes and the common change of light at each pixel, as the three colours of a frame in integer steps.
     fn slopes(&self, frame: &Frame) -> Frame {
         let mut bytes = Vec::with_capacity(2 * self.reference.len());
         let own = self.reference.iter().zip(&self.inverse);
@@ -113,7 +113,7 @@ fn slopes_info(info: FrameInfo) -> FrameInfo {
     }
 }
 
-/// Rounds to the nearest integer step, limited to the range.
+/// Converts a relative change to the nearest integer step. Values beyond −2 to 2 become the nearest bound.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -140,7 +140,8 @@ mod tests {
         }
     }
 
-    /// Test frame, 16 bits: a surface whose slope at each place is given by `slope`. It is lit by lamps of brightness `lamps` and dimmed by `dimming`.
+    /// Test frame of 16 bits: a surface with a given `slope` at each place, lit by lamps of brightness `lamps`. `dimming` multiplies the light of a
+    /// flat surface.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

@@ -1,4 +1,4 @@
-//! Features of gratings: power at each spatial frequency, independent of the grating's direction.
+//! Features of pictures of gratings: the power spectrum by spatial frequency. It does not depend on the direction of the grating.
 
 mod fourier;
 mod radial;

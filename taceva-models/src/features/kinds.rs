@@ -1,4 +1,4 @@
-//! Kinds of features, and sets of them.
+//! Kinds of features that are computed from each cell of a frame, and sets of kinds.
 
 use std::fmt;
 
@@ -6,24 +6,25 @@ use serde::{Deserialize, Serialize};
 
 use super::spec::Color;
 
-/// Kind of features computed for each cell.
+/// Kind of features that are computed for each cell of the grid over a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum FeatureKind {
-    /// Brightness: the area average of pixels. Lighting and touch affect it equally.
+    /// Brightness, averaged over the area of the cell. Changes of light affect it as touches do.
     Pixels,
-    /// Displacement of nearby markers from the untouched gel, and the share of unseen markers. Insensitive to lighting, and to details between markers.
+    /// Displacement of the gel from its untouched state, measured at nearby markers, and the share of markers that are not visible. Changes of light
+    /// have little effect. Details between the markers are not seen.
     Markers,
-    /// Surface slopes, computed from the colours of three lamps. Insensitive to shear and to flat areas, such as the middle of a flat touch.
+    /// Slopes of the surface, computed from the colours of three lamps. Shear, and the middle of a flat touch, are not seen.
     Gradients,
-    /// Mean, standard deviation and quantiles of pixels, regardless of pixel positions in the cell.
+    /// Mean, standard deviation and quantiles of the pixels in the cell. The positions of the pixels within the cell do not matter.
     Statistics,
-    /// Values of taxels, for sensors without pictures. There is one cell per taxel, and no combination with other kinds.
+    /// Readings of taxels, for sensors without pictures. Each taxel is a cell. This kind cannot be combined with others.
     Signals,
 }
 
 impl FeatureKind {
-    /// All kinds, in the order of their values in a cell.
+    /// All kinds. The values of a cell have the same order.
     pub const ALL: [FeatureKind; 5] = [
         FeatureKind::Pixels,
         FeatureKind::Markers,
@@ -43,7 +44,7 @@ impl FeatureKind {
         }
     }
 
-    /// Number of values per cell; 0 for signals, because their number depends on the recording.
+    /// Number of values per cell. 0 for signals, whose number of values depends on the recording.
     pub const fn depth(self, color: Color) -> usize {
         match self {
             FeatureKind::Signals => 0,
@@ -53,12 +54,12 @@ impl FeatureKind {
         }
     }
 
-    /// True if this kind always compares a frame with the untouched frame.
+    /// True if this kind needs a reference frame of the untouched gel.
     pub const fn needs_reference(self) -> bool {
         matches!(self, FeatureKind::Markers | FeatureKind::Gradients)
     }
 
-    /// Default number of columns and rows for features whose first kind is this kind.
+    /// Default number of columns and of rows of the grid, if this is the first requested kind.
     pub(super) const fn side(self) -> u32 {
         match self {
             FeatureKind::Pixels | FeatureKind::Gradients | FeatureKind::Signals => 32,
@@ -72,7 +73,7 @@ impl FeatureKind {
     }
 }
 
-/// Set of kinds of features, written `markers` or `pixels+markers`.
+/// Set of kinds of features. In settings it is written as `markers` or `pixels+markers`.
 ///
 /// ```
 /// use taceva_models::{FeatureKind, FeatureKinds};
@@ -86,13 +87,13 @@ impl FeatureKind {
 pub struct FeatureKinds(u8);
 
 impl FeatureKinds {
-    /// Set of pixels only.
+    /// Set that contains only [`FeatureKind::Pixels`].
     pub const PIXELS: FeatureKinds = FeatureKinds(FeatureKind::Pixels.bit());
 
-    /// Set of signals, which cannot be combined with other kinds.
+    /// Set that contains only [`FeatureKind::Signals`]. Other kinds cannot be added.
     pub const SIGNALS: FeatureKinds = FeatureKinds(FeatureKind::Signals.bit());
 
-    /// Parses kinds joined by `+`; `None` if a kind is unknown or repeated, or if signals are combined.
+    /// Parses names of kinds joined by `+`. `None` if a kind is unknown or repeated, or if signals are combined with others.
     pub fn parse(text: &str) -> Option<FeatureKinds> {
         let mut kinds = FeatureKinds(0);
         for word in text.split('+') {
@@ -108,7 +109,7 @@ impl FeatureKinds {
         (!is_mixed).then_some(kinds)
     }
 
-    /// Kinds of the set, in the order of [`FeatureKind::ALL`].
+    /// Iterates over the kinds of the set in the order of [`FeatureKind::ALL`].
     pub fn iter(self) -> impl Iterator<Item = FeatureKind> {
         FeatureKind::ALL
             .into_iter()
@@ -120,7 +121,7 @@ impl FeatureKinds {
         self.0 & kind.bit() != 0
     }
 
-    /// True if the set contains only pixels, the default of older model files.
+    /// True if the set contains only pixels. Such sets are not written to model files.
     pub fn are_pixels(&self) -> bool {
         *self == FeatureKinds::PIXELS
     }

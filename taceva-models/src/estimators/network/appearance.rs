@@ -6,19 +6,19 @@ use taceva_network::Jitter;
 use crate::features::Preprocessing;
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 
-/// Kind of signal in a picture.
+/// Part of a picture that carries the touch. It sets the default preprocessing and augmentation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Appearance {
-    /// Moving markers: subtracts a local mean, divides each picture by its standard deviation, and shifts training pictures. The lengths of
-    /// [`USUAL`] are scaled with the picture's width.
+    /// Moving markers. The local mean of the pixels is subtracted, and each picture is divided by its standard deviation. Training pictures are
+    /// shifted. Lengths in pixels grow in proportion to the picture's width.
     Markers,
-    /// Light and position: pictures are unchanged.
+    /// Brightness and position of light. Pictures are unchanged.
     Light,
     /// `Light` for pictures with several values per cell, such as colour. `Markers` for other pictures.
     ByPicture,
 }
 
-/// Resolved preprocessing and augmentation of pictures.
+/// Preprocessing and augmentation of pictures of one shape, with all defaults filled in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Prepared {
     pub(super) preprocessing: Preprocessing,
@@ -38,7 +38,7 @@ const USUAL: Prepared = Prepared {
     noise: 0.1,
 };
 
-/// Number of picture columns to which [`USUAL`] applies.
+/// Picture width, in pixels, for which the lengths of [`USUAL`] are meant.
 const USUAL_WIDTH: usize = 128;
 
 /// Settings that leave pictures unchanged.
@@ -51,7 +51,7 @@ const AS_THEY_ARE: Prepared = Prepared {
     noise: 0.0,
 };
 
-/// Preprocessing and augmentation as set by the user.
+/// Preprocessing and augmentation as set by the user. `None` stands for the default.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Preparation {
     appearance: Option<Appearance>,
@@ -96,10 +96,10 @@ const CONTRAST: SettingInfo = SettingInfo {
 };
 
 impl Preparation {
-    /// Settings in the registry.
+    /// Settings of preprocessing and augmentation in the model registry.
     pub(super) const SETTINGS: [SettingInfo; 5] = [APPEARANCE, JITTER, NOISE, LOCAL_MEAN, CONTRAST];
 
-    /// Reads the settings.
+    /// Reads the settings of preprocessing and augmentation. Settings that are missing keep their defaults.
     pub(super) fn from_settings(settings: &ModelSettings) -> Result<Preparation, SettingError> {
         Ok(Preparation {
             appearance: settings.value(&APPEARANCE, None, |text| match text {
@@ -118,7 +118,7 @@ impl Preparation {
         })
     }
 
-    /// Settings for signals. The mean, contrast and position of taxels depend on the touch, so signals are changed only if the user requests it.
+    /// Settings for signals of taxels. Their mean, contrast and position depend on the touch. By default, only noise is added to training samples.
     pub(super) fn of_signals(self) -> Preparation {
         Preparation {
             of_signals: true,
@@ -126,7 +126,7 @@ impl Preparation {
         }
     }
 
-    /// Resolves the user's settings for pictures of `shape`.
+    /// Preprocessing and augmentation for pictures of `shape`. Defaults replace settings that the user left out.
     pub(super) fn of(self, shape: FeatureShape) -> Prepared {
         let usual = match self.appearance {
             _ if self.of_signals => Prepared {
@@ -163,7 +163,7 @@ impl Prepared {
     }
 }
 
-/// Settings of [`USUAL`], scaled in proportion to `width`.
+/// Settings of [`USUAL`] for pictures of `width` columns. Lengths in pixels are proportional to `width`.
 fn markers(width: usize) -> Prepared {
     let share = width as f64 / USUAL_WIDTH as f64;
     Prepared {
@@ -183,7 +183,7 @@ fn markers(width: usize) -> Prepared {
 mod tests {
     use super::*;
 
-    /// Local mean, contrast, jitter and noise resolved for pictures of this width and depth.
+    /// Settings for test pictures of this width and depth, in order: local mean, contrast, jitter, noise. `words` are `key=value` settings.
     fn of(words: &[&str], width: usize, depth: usize) -> (f64, bool, usize, f64) {
         let settings = ModelSettings::parse(words.iter().copied()).expect("pairs");
         let preparation = Preparation::from_settings(&settings).expect("valid");

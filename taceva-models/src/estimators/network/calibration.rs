@@ -1,12 +1,12 @@
-//! Classes from outputs of a network: the greatest output, and probabilities calibrated by one temperature.
+//! Prediction of classes from network outputs: the class of the greatest output, and probabilities by softmax with one fitted temperature.
 
-/// Range of temperatures. Beyond this range, probabilities are nearly equal, or nearly 0 and 1.
+/// Allowed range of the softmax temperature. Outside it, probabilities are nearly equal, or nearly 0 and 1.
 const RANGE: [f64; 2] = [0.05, 20.0];
 
-/// Number of halvings of the range of the inverse temperature.
+/// Number of bisection steps in the search for the inverse temperature.
 const HALVINGS: usize = 60;
 
-/// Writes to `into` the softmax of `outputs` after their division by `temperature`.
+/// Appends to `into` the softmax of `outputs` divided by `temperature`.
 pub(super) fn softmax(outputs: &[f64], temperature: f64, into: &mut Vec<f64>) {
     let most = outputs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let start = into.len();
@@ -19,7 +19,7 @@ pub(super) fn softmax(outputs: &[f64], temperature: f64, into: &mut Vec<f64>) {
     into[start..].iter_mut().for_each(|share| *share /= sum);
 }
 
-/// Index of the greatest value; of equal values, the first.
+/// Index of the greatest of `outputs`; the first index if several are equal.
 pub(super) fn greatest(outputs: &[f64]) -> usize {
     let mut places = 0..outputs.len();
     let first = places.next().unwrap_or(0);
@@ -32,7 +32,8 @@ pub(super) fn greatest(outputs: &[f64]) -> usize {
     })
 }
 
-/// Temperature with the greatest likelihood of `classes`. The negative log likelihood is convex in the inverse temperature, so its slope has one zero.
+/// Softmax temperature that maximises the likelihood of the true `classes`. The negative log likelihood is convex in the inverse temperature, so its
+/// slope has one zero.
 ///
 /// # Shapes
 /// `outputs`: `[samples, width]`; `classes`: `[samples]`.
@@ -51,7 +52,8 @@ pub(super) fn temperature(outputs: &[f64], width: usize, classes: &[u32]) -> f64
     (2.0 / (low + high)).clamp(least, most)
 }
 
-/// Slope of the negative log likelihood along the inverse temperature: expected output minus the output of the class, summed over samples.
+/// Derivative of the negative log likelihood with respect to the inverse temperature. Each sample adds its expected output minus the output of its
+/// true class.
 fn slope(outputs: &[f64], width: usize, classes: &[u32], inverse: f64) -> f64 {
     let mut shares = Vec::with_capacity(width);
     let each = outputs.chunks_exact(width).zip(classes);

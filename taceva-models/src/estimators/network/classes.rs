@@ -1,4 +1,4 @@
-//! Fitting of networks to classes: cross entropy, and a temperature from the validation part.
+//! Fitting of networks that predict classes: cross entropy loss, and a softmax temperature fitted on the validation part.
 
 use taceva_core::{Features, ModelError, Progress, Regressor, TrainingSet};
 use taceva_network::Gpu;
@@ -17,7 +17,7 @@ use crate::training::fit::ModelFit;
 use crate::training::problem::Problem;
 use crate::training::regressor::ModelRegressor;
 
-/// Samples with a label of the training part, and their classes.
+/// Samples whose label occurs in the training part, with class numbers. Other samples are left out.
 struct Known {
     features: Features,
     classes: Vec<u32>,
@@ -48,7 +48,8 @@ fn levels(labels: &[f64]) -> Vec<f64> {
 }
 
 impl NetworkEstimator {
-    /// Fits a network with one output for each label of the only channel. The epoch and the temperature come from the validation part.
+    /// Fits a network with one output for each distinct label of the only channel. The best epoch and the softmax temperature are chosen on the
+    /// validation part.
     ///
     /// # Errors
     /// Errors of [`Estimator::fit`](taceva_core::Estimator::fit), and errors for several channels and for too many labels.
@@ -141,7 +142,7 @@ impl NetworkEstimator {
     }
 }
 
-/// Card of the classes `labels`, with the temperature of the validation part `kept`. Without `kept`, the temperature is 1.
+/// Class entry of the model card: `labels`, and a temperature fitted to the validation samples `kept`. Without `kept`, the temperature is 1.
 fn calibrated(
     network: &NetworkRegressor,
     labels: Vec<f64>,

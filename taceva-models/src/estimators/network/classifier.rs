@@ -16,7 +16,7 @@ use crate::training::file::tensors::Raw;
 use crate::training::output::check_call;
 use crate::training::regressor::{ClassProbabilities, FittedModel, ModelRegressor};
 
-/// Fitted network that predicts one channel as one of its training labels.
+/// Fitted network that predicts the class of its only channel: one of the labels seen in training.
 #[derive(Clone, Debug)]
 pub struct NetworkClassifier {
     channels: Channels,
@@ -25,7 +25,7 @@ pub struct NetworkClassifier {
     classes: ClassCard,
 }
 
-/// Channels of the outputs of a network with `count` classes.
+/// Artificial channels for the outputs of a network with `count` classes, named `class_000` and so on.
 pub(super) fn class_channels(count: usize) -> Result<Channels, ModelError> {
     let named = (0..count).map(|class| Channel::named(&format!("class_{class:03}"), Unit::One));
     let channels = named.collect::<Result<Vec<_>, _>>();
@@ -33,7 +33,7 @@ pub(super) fn class_channels(count: usize) -> Result<Channels, ModelError> {
     channels.map_err(|error| invalid("the classes of a network").because(error))
 }
 
-/// Loads a network from a file: a classifier if its card has classes, otherwise a network of numbers.
+/// Loads a network from a file: a classifier if the model card lists classes, otherwise a network that predicts numbers.
 pub(super) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
     let card = stored.card.network.as_ref().ok_or(FormatError::Card)?;
     let found = named_tensors(&stored.tensors)?;
@@ -80,12 +80,12 @@ impl NetworkClassifier {
         })
     }
 
-    /// Labels and temperature in the model card.
+    /// Entry of the model card with the class labels and the softmax temperature.
     pub fn classes(&self) -> &ClassCard {
         &self.classes
     }
 
-    /// Outputs of the network, shape `[samples, classes]`.
+    /// Network outputs before softmax, with shape `[samples, classes]`.
     fn outputs(&self, features: &Features) -> Result<Vec<f64>, ModelError> {
         let mut outputs = vec![0.0; features.samples() * self.classes.labels.len()];
         self.network.predict(features, &mut outputs)?;

@@ -1,4 +1,4 @@
-//! Ensembles: average the predictions of small networks with different seeds.
+//! Ensembles of small networks. The members have different seeds, and their predictions are averaged.
 
 mod regressor;
 
@@ -15,7 +15,7 @@ use crate::training::fit::{ModelEstimator, ModelFit, estimator};
 use crate::training::info::ModelInfo;
 use crate::training::regressor::ModelRegressor;
 
-/// Small networks fitted to the same samples with different seeds. Their predictions are averaged.
+/// Unfitted ensemble: small networks of different seeds, to be fitted to the same samples. Predictions are averaged over the networks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NetworkEnsemble {
     members: Vec<NetworkEstimator>,
@@ -30,7 +30,7 @@ const MEMBERS: SettingInfo = SettingInfo {
 
 const OF_EACH: &[SettingInfo] = NetworkEstimator::CNN.settings;
 
-/// Settings in the registry: settings of the small network, and the number of members.
+/// Settings of an ensemble in the model registry: settings of each small network, and the number of networks.
 const SETTINGS: [SettingInfo; OF_EACH.len() + 1] = {
     let mut all = [MEMBERS; OF_EACH.len() + 1];
     let mut at = 0;
@@ -42,7 +42,7 @@ const SETTINGS: [SettingInfo; OF_EACH.len() + 1] = {
 };
 
 impl NetworkEnsemble {
-    /// Registry entry.
+    /// Entry of the ensemble in the model registry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "cnn-ensemble",
         about: "the mean of several cnn of different seeds",

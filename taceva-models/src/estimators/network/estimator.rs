@@ -14,23 +14,24 @@ use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::checkpoint::Checkpoints;
 use crate::training::info::ModelInfo;
 
-/// Unfitted network. Training uses AdamW, a one-cycle learning rate, Huber's loss on standardised labels, and the epoch of least validation error.
+/// Unfitted network. Training uses AdamW, a one-cycle learning rate, and Huber's loss on standardised labels. With a validation part, the epoch of
+/// least validation error is kept.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NetworkEstimator {
     kind: Kind,
-    /// Training settings, except noise and shifts, which are in [`preparation`](Self::preparation).
+    /// Training settings, except noise and shifts of the pictures. These are in [`preparation`](Self::preparation).
     recipe: Recipe,
     preparation: Preparation,
-    /// Algorithm of convolutions for predictions.
+    /// Algorithm that computes convolutions during prediction.
     pub(super) convolutions: ConvolutionForm,
     /// Kind of GPU for training; `None` for the CPU.
     pub(super) gpu: Option<GpuKind>,
-    /// Weights of classes, if the outputs are scores of classes; `None` for numbers.
+    /// Class weights of the loss, for a network that predicts classes. `None` for a network that predicts numbers.
     pub(super) classes: Option<ClassWeights>,
     pub(super) checkpoints: Option<Checkpoints>,
 }
 
-/// Kind of network.
+/// Architecture of the network: five plain layers, or residual layers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     FiveLayers,
@@ -114,10 +115,10 @@ const SETTINGS: &[SettingInfo] = &{
     ]
 };
 
-/// Minimum number of cells along a side of the grid. Each of the five layers halves this number.
+/// Minimum number of rows and columns of a grid of taxels. Each of five layers halves both.
 const PLACES_LEAST: u32 = 8;
 
-/// Default features of networks.
+/// Default feature settings of every network.
 const FEATURES: FeatureSpec = FeatureSpec {
     kinds: FeatureKinds::PIXELS,
     width: 128,
@@ -129,7 +130,7 @@ const FEATURES: FeatureSpec = FeatureSpec {
     window: None,
 };
 
-/// Builds the [`ModelInfo`] of a network.
+/// Builds the registry entry of a network from its name, its description and its architecture.
 macro_rules! info {
     ($name:literal, $about:literal, $kind:expr) => {
         ModelInfo {
@@ -144,32 +145,32 @@ macro_rules! info {
 }
 
 impl NetworkEstimator {
-    /// Registry entry of the small network.
+    /// Entry of the small network in the model registry.
     pub const CNN: ModelInfo = info!(
         "cnn",
         "five convolutions: sees where markers move, fitted in a minute",
         Kind::FiveLayers
     );
-    /// Registry entry of the residual network of ten layers.
+    /// Entry of the ten-layer residual network in the model registry.
     pub const RESNET_10: ModelInfo = info!(
         "resnet10",
         "a residual network of ten layers",
         Kind::Residual(Depth::Ten)
     );
-    /// Registry entry of the residual network of eighteen layers.
+    /// Entry of the eighteen-layer residual network in the model registry.
     pub const RESNET_18: ModelInfo = info!(
         "resnet18",
         "a residual network of eighteen layers",
         Kind::Residual(Depth::Eighteen)
     );
-    /// Registry entry of the residual network of thirty-four layers.
+    /// Entry of the thirty-four-layer residual network in the model registry.
     pub const RESNET_34: ModelInfo = info!(
         "resnet34",
         "a residual network of thirty-four layers",
         Kind::Residual(Depth::ThirtyFour)
     );
 
-    /// Builds the small network from `settings`.
+    /// Builds the small network of five convolutions from `settings`.
     ///
     /// # Errors
     /// [`SettingError`] for an unknown key or a value out of range.
@@ -228,7 +229,7 @@ impl NetworkEstimator {
         })
     }
 
-    /// Adapts the estimator to signals described by `info`.
+    /// Copy of the estimator for signals of taxels, with the grid `info`. Fails if the grid is too small.
     pub(super) fn for_signals(&self, info: SignalInfo) -> Result<NetworkEstimator, FeatureError> {
         if info.rows.min(info.columns) < PLACES_LEAST {
             let least = PLACES_LEAST;
@@ -272,7 +273,7 @@ impl NetworkEstimator {
     }
 }
 
-/// Parses the algorithm of convolutions; `None` for an unknown word.
+/// Parses the setting `convolutions`; `None` for an unknown word.
 fn form_of(word: &str) -> Option<ConvolutionForm> {
     match word {
         "winograd" => Some(ConvolutionForm::Winograd),
@@ -282,7 +283,7 @@ fn form_of(word: &str) -> Option<ConvolutionForm> {
     }
 }
 
-/// Parses a device. `Some(None)` is the CPU; `None` is an unknown device.
+/// Parses the setting `device`. `Some(None)` means the CPU, `Some(Some(kind))` a GPU, and `None` an unknown device.
 fn gpu_of(device: &str) -> Option<Option<GpuKind>> {
     if device == "cpu" {
         return Some(None);

@@ -1,4 +1,4 @@
-//! Fitting of networks and their model cards.
+//! Fitting of networks that predict numbers.
 
 use taceva_core::{ModelError, Progress, SignalInfo, TrainingSet};
 use taceva_network::Gpu;
@@ -16,7 +16,7 @@ use crate::training::fit::{ModelEstimator, ModelFit, estimator};
 use crate::training::problem::Problem;
 use crate::training::regressor::ModelRegressor;
 
-/// Labels of the channels with the indices `varying`, sample by sample.
+/// Labels of the channels with the indices in `varying`. The labels of one sample are adjacent.
 fn labels_of(set: &TrainingSet<'_>, varying: &[usize]) -> Vec<f64> {
     let rows = set.targets.values.chunks_exact(set.targets.channels.len());
     rows.flat_map(|row| varying.iter().map(|&channel| row[channel]))

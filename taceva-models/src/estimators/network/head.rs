@@ -1,4 +1,4 @@
-//! Settings of the outputs of networks: numbers or classes.
+//! Settings of a network's output layer: it predicts numbers or classes.
 
 use crate::settings::SettingInfo;
 
@@ -16,17 +16,17 @@ pub(super) const CLASS_WEIGHTS: SettingInfo = SettingInfo {
             equally frequent classes",
 };
 
-/// Weights of the samples of a class in the loss.
+/// Rule for the weight of each class in the loss.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ClassWeights {
-    /// Every sample has the same weight.
+    /// All samples have equal weights.
     Equal,
-    /// Every class has the same sum of weights.
+    /// The weights of a class's samples sum to the same value for every class. Rare classes thus count as much as frequent classes.
     Balanced,
 }
 
 impl ClassWeights {
-    /// Weights with the name `word`; `None` for an unknown name.
+    /// Parses the setting `class_weights`; `None` for an unknown word.
     pub(super) fn of(word: &str) -> Option<ClassWeights> {
         match word {
             "equal" => Some(ClassWeights::Equal),
@@ -35,7 +35,7 @@ impl ClassWeights {
         }
     }
 
-    /// Weight of each of `count` classes; empty for equal weights. Every class has a sample.
+    /// Weight in the loss of each of `count` classes; empty for equal weights. Each class must occur in `classes`, the class of each sample.
     pub(super) fn in_loss(self, classes: &[u32], count: usize) -> Vec<f64> {
         if self == ClassWeights::Equal {
             return Vec::new();

@@ -1,4 +1,4 @@
-//! Fitted networks.
+//! Fitted networks that predict numbers.
 
 use std::sync::Mutex;
 
@@ -25,12 +25,12 @@ pub struct NetworkRegressor {
     channels: Channels,
     card: NetworkCard,
     network: Network,
-    /// Idle predictors for reuse. Each prediction takes an idle predictor, or builds a new predictor.
+    /// Idle predictors with their buffers, kept for reuse. A call of `predict` takes one, or builds a new one if none is idle.
     spare: Mutex<Vec<Predictor>>,
 }
 
 impl NetworkRegressor {
-    /// Builds a regressor from a network.
+    /// Builds a regressor from a trained network and its model card.
     ///
     /// # Errors
     /// [`ModelError`] if card, network and channels do not match each other.
@@ -70,17 +70,17 @@ impl NetworkRegressor {
         })
     }
 
-    /// Network settings in the model card.
+    /// Entry of the model card about the network.
     pub fn card(&self) -> &NetworkCard {
         &self.card
     }
 
-    /// Tensors of the network. Residual networks use torchvision's tensor names.
+    /// Weights of the network as named tensors. Residual networks use torchvision's tensor names.
     pub fn tensors(&self) -> Vec<NamedTensor> {
         self.network.tensors()
     }
 
-    /// Builds the network that predicts `channels` from its card and the tensors of a file.
+    /// Builds a network that predicts `channels` from its model card and the tensors `found` in a file.
     pub(super) fn of_tensors(
         stored: &Stored<'_>,
         channels: Channels,
@@ -100,7 +100,7 @@ impl NetworkRegressor {
         Ok(NetworkRegressor::new(channels, card.clone(), ready)?)
     }
 
-    /// Computes the network outputs for preprocessed pictures.
+    /// Computes the network outputs for preprocessed `pictures`, and writes them to `into`.
     fn outputs(&self, pictures: &[f32], into: &mut [f64]) -> Result<(), ModelError> {
         let spare = || {
             self.spare
@@ -127,7 +127,7 @@ impl Clone for NetworkRegressor {
     }
 }
 
-/// Shape of the picture that the features form.
+/// Picture in which each cell of `shape` is a pixel, and each value of a cell is a channel.
 pub(super) const fn picture(shape: FeatureShape) -> Picture {
     Picture {
         height: shape.height,
@@ -136,7 +136,7 @@ pub(super) const fn picture(shape: FeatureShape) -> Picture {
     }
 }
 
-/// All tensors of a file except the tensors of the training distance. All must be of type f32.
+/// Tensors of a network in a file: all tensors except those of the feature distance. Their type must be f32.
 pub(super) fn named_tensors(tensors: &Tensors<'_>) -> Result<Vec<NamedTensor>, FormatError> {
     let all = tensors.0.tensors().into_iter();
     let own = all.filter(|(name, _)| !DISTANCE.contains(&name.as_str()));

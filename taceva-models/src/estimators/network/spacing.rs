@@ -1,4 +1,4 @@
-//! Prediction of grating spacings by a network.
+//! Networks that predict the spacing of gratings from pictures.
 
 use taceva_core::{FeatureShape, Features, ModelError, Nanometre, Progress};
 use taceva_network::Gpu;
@@ -10,29 +10,29 @@ use super::training::{Training, no_gpu, refused};
 use crate::features::Preprocessing;
 use crate::linalg::invalid;
 
-/// Kind of network output for spacings.
+/// Form in which a network predicts a spacing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpacingOutput {
-    /// One output per spacing of the training pictures, trained with cross entropy. The network predicts one of these spacings.
+    /// One class per spacing of the training pictures. Training uses cross entropy. The network predicts one of these spacings.
     Classes,
-    /// A single output, the spacing, trained with Huber's loss. Predictions may lie between training spacings.
+    /// One number: the spacing as a length. Training uses Huber's loss. Predictions may lie between the spacings of the training pictures.
     Length,
 }
 
-/// Fitted network for spacings.
+/// Fitted network that predicts the spacing of a grating.
 #[derive(Debug)]
 pub struct SpacingNetwork {
     shape: FeatureShape,
     preprocessing: Preprocessing,
-    /// Network and label scale; `None` if all training pictures have the same spacing.
+    /// Trained network, and the scale that converts its output to a length. `None` if all training pictures have the same spacing.
     network: Option<(Network, LabelScale)>,
     output: SpacingOutput,
-    /// Spacings of the training pictures, ascending.
+    /// Distinct spacings of the training pictures, ascending.
     known: Vec<Nanometre>,
 }
 
 impl NetworkEstimator {
-    /// Fits a network that predicts the grating spacing of each of `pictures`, with the settings of this estimator.
+    /// Trains a network that predicts the grating spacing in a picture. The settings of this estimator apply.
     ///
     /// # Shapes
     /// `spacings`: `[samples]`, one per picture.
@@ -96,7 +96,7 @@ impl NetworkEstimator {
     }
 }
 
-/// Training settings for this kind of output, with batches of at most `samples`.
+/// Training settings `recipe`, changed for this form of `output`. A batch has at most `samples` samples.
 fn recipe_of(recipe: Recipe, output: SpacingOutput, samples: usize) -> Recipe {
     Recipe {
         batch: recipe.batch.min(samples),
@@ -108,7 +108,7 @@ fn recipe_of(recipe: Recipe, output: SpacingOutput, samples: usize) -> Recipe {
     }
 }
 
-/// Spacings as labels of a network.
+/// Spacings of the training pictures as labels: class numbers, and lengths in mm.
 struct Learnt {
     classes: Vec<u32>,
     lengths: Vec<f64>,
@@ -131,7 +131,7 @@ impl Learnt {
 }
 
 impl SpacingNetwork {
-    /// Predicts the spacing in each of `pictures`.
+    /// Predicts the spacing of the grating in each of `pictures`.
     ///
     /// # Errors
     /// [`ModelError`] if the shape of the pictures differs, or a prediction is not a valid length.

@@ -9,7 +9,7 @@ use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::training::checkpoint::Checkpoints;
 use crate::training::checkpoint::{Identity, Shelf};
 
-/// Input of a training run.
+/// Inputs of one training run: architecture, settings, samples, device and checkpoints.
 pub(super) struct Training<'a> {
     pub(super) architecture: &'a Architecture,
     pub(super) recipe: &'a Recipe,
@@ -61,7 +61,7 @@ impl<'a> Training<'a> {
         })
     }
 
-    /// Resumes the training from its checkpoint, or starts a new training. Also returns the title for progress reports.
+    /// Resumes the training from its checkpoint, or starts a new one. Returns the stage name for progress reports, and the trainer.
     fn begin(&self, shelf: Option<&Shelf<'_>>) -> Result<(&'static str, Trainer<'a>), ModelError> {
         let (samples, validation) = (self.samples, self.validation);
         let found = shelf.map(Shelf::take).transpose()?.flatten();
@@ -87,7 +87,7 @@ impl<'a> Training<'a> {
     }
 }
 
-/// Error of a training that cannot continue. Stores a checkpoint of the best epoch if checkpoints are enabled.
+/// Error for a training that failed, for example by a loss that is not finite. If there is a best epoch, it is saved as a checkpoint first.
 fn broken(error: NetworkError, trainer: &Trainer<'_>, shelf: Option<Shelf<'_>>) -> ModelError {
     let refusal = refused(error);
     let Some((best, mut shelf)) = trainer.state().best.zip(shelf) else {

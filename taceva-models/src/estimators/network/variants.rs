@@ -1,10 +1,10 @@
-//! Variants of an unfitted network: shorter training, or another seed.
+//! Copies of an unfitted network with shorter training, or with another seed.
 
 use super::NetworkEstimator;
 use taceva_core::whole_count;
 
 impl NetworkEstimator {
-    /// Copy with `share` of the epochs, at least one, and without checkpoints. The learning-rate cycle is shortened as well, and still completes.
+    /// Copy that trains for `share` of the epochs, at least one, without checkpoints. The learning-rate cycle is shortened to these epochs.
     pub(super) fn shortened(&self, share: f64) -> NetworkEstimator {
         let mut own = self.with_recipe(|recipe| {
             let epochs = whole_count((share * recipe.epochs as f64).round());
@@ -14,7 +14,7 @@ impl NetworkEstimator {
         own
     }
 
-    /// Copy with a seed increased by `by`, and without checkpoints.
+    /// Copy with the seed increased by `by`. The copy writes no checkpoints.
     pub(super) fn with_later_seed(&self, by: u64) -> NetworkEstimator {
         let mut own = self.with_recipe(|recipe| recipe.seed = recipe.seed.wrapping_add(by));
         own.checkpoints = None;

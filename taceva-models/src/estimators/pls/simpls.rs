@@ -1,4 +1,5 @@
-//! SIMPLS directions. They are computed only by products with the features, without a Gram matrix or a deflated copy.
+//! SIMPLS algorithm for the directions of partial least squares. It multiplies vectors with the features, and needs no Gram matrix and no deflated
+//! copy.
 
 use faer::{Mat, MatRef};
 use taceva_core::{ModelError, Progress};
@@ -6,20 +7,21 @@ use taceva_core::{ModelError, Progress};
 use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::linalg::{Design, multiply, symmetric_eigen};
 
-/// Relative norm below which a direction is rounding noise.
+/// Smallest norm of a remainder, relative to its norm before subtraction. A smaller remainder is rounding noise, and the search ends.
 const NOISE: f64 = 1e-10;
 
-/// Directions in feature space with orthonormal scores, and the loadings of each channel.
+/// Directions in feature space. The scores, which are the projections of the samples, are orthonormal over directions.
 #[derive(Debug)]
 pub(super) struct Directions {
-    /// Weights of the features, one column per direction.
+    /// Weight of each feature (row) in each direction (column).
     weights: Mat<f64>,
-    /// Loadings, one row per direction and one column per channel.
+    /// Change of each channel's label per unit of score. One row per direction, one column per channel.
     loadings: Vec<Vec<f64>>,
 }
 
 impl Directions {
-    /// Finds at most `count` directions of `design` for centred `targets`. Finds fewer if these explain all labels.
+    /// Finds up to `count` directions of the features `design` that predict the centred labels `targets`. The search ends early if the labels are
+    /// fully explained.
     pub(super) fn find(
         design: &Design<'_>,
         targets: &Mat<f64>,
@@ -87,7 +89,7 @@ impl Directions {
         self.loadings[direction][channel]
     }
 
-    /// Weights of features, with one column per channel. Column c uses the first `counts[c]` directions.
+    /// Weights of the features for prediction, one column per channel. Column c uses the first `counts[c]` directions.
     pub(super) fn solution(&self, counts: &[usize]) -> Mat<f64> {
         let coefficients = Mat::from_fn(self.count(), counts.len(), |direction, channel| {
             if direction < counts[channel] {
@@ -100,7 +102,7 @@ impl Directions {
     }
 }
 
-/// Combination of channels with the greatest covariance with the features.
+/// Coefficients of the linear combination of channels that has the greatest covariance with the features. Shape: `[channels, 1]`.
 fn dominant(covariance: &Mat<f64>) -> Result<Mat<f64>, ModelError> {
     let square = multiply(covariance.transpose(), covariance.as_ref());
     let (_, vectors) = symmetric_eigen(square.as_ref())?;

@@ -1,4 +1,4 @@
-//! Adapter from plugin estimators to [`ModelEstimator`].
+//! Adapter that makes a plugin's estimator a [`ModelEstimator`].
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::training::fit::{ModelEstimator, ModelFit, estimator};
 use crate::training::problem::Problem;
 use crate::training::regressor::ModelRegressor;
 
-/// Unfitted estimator of a plugin with its settings.
+/// Unfitted model of a plugin, with its settings.
 pub(crate) struct PluginEstimator {
     pub(crate) factory: Arc<dyn EstimatorFactory>,
     pub(crate) settings: Args,

@@ -1,4 +1,4 @@
-//! Fitted models of plugins.
+//! Adapter for models that a plugin has fitted.
 
 use std::fmt;
 use std::sync::Arc;
@@ -17,10 +17,10 @@ use crate::training::file::error::FormatError;
 use crate::training::file::tensors::Raw;
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// Name of the tensor with the plugin's bytes.
+/// Name of the tensor that contains the bytes of the plugin's model.
 const TENSOR: &str = "plugin";
 
-/// Error message for a plugin model on principal components.
+/// Error message for a plugin model that would read principal components.
 const OPAQUE: &str = "the model of a plugin reads pixels: remove `pca`; the plugin may compute its own principal components";
 
 /// Fitted model of a plugin. The plugin computes predictions; this type stores the model's bytes.
@@ -60,7 +60,7 @@ impl PluginRegressor {
         })
     }
 
-    /// Loads the model from a file; `factory` opens the model in the plugin.
+    /// Loads the model from a file. The plugin decodes its bytes through `factory`.
     pub(crate) fn load(
         factory: &dyn EstimatorFactory,
         card: &PluginCard,
@@ -81,7 +81,7 @@ impl PluginRegressor {
         Ok(ModelRegressor::new(own))
     }
 
-    /// Card entry of the plugin that fitted the model.
+    /// Entry of the model card about the plugin that fitted the model.
     pub fn card(&self) -> &PluginCard {
         &self.card
     }
@@ -95,7 +95,7 @@ impl FittedModel for PluginRegressor {
         }
     }
 
-    /// Tensor with the bytes from which the plugin loads the model.
+    /// One tensor of bytes: the plugin's model, as the plugin saved it.
     fn tensors(&self) -> Vec<Raw> {
         vec![Raw {
             name: TENSOR.to_owned(),

@@ -1,4 +1,4 @@
-//! Presets: names for a model with settings, chosen by available time.
+//! Presets: short names for a model with settings. Users choose a preset by the time they have.
 
 use std::fmt;
 
@@ -17,8 +17,8 @@ pub struct Preset {
     pub settings: &'static [(&'static str, &'static str)],
 }
 
-/// Settings that depend on the recording: the grid has at most one cell per pixel. Colour frames use colours minus the contact-free frame, with
-/// light as signal. Other frames use markers.
+/// With [`DIFFERENCE`] and [`APPEARANCE`], adapts a preset to the recording. Colour frames use colours minus the contact-free frame, with light as
+/// signal. Gray frames use markers.
 const COLOR: (&str, &str) = ("color", "auto");
 const DIFFERENCE: (&str, &str) = ("difference", "in-color");
 const APPEARANCE: (&str, &str) = ("appearance", "auto");
@@ -35,7 +35,7 @@ const FAST: Preset = Preset {
     ],
 };
 
-/// Default network, also tried by [`Auto`](crate::Auto).
+/// Preset `default`: the small network. [`Auto`](crate::Auto) also tries this network.
 pub(crate) const DEFAULT: Preset = Preset {
     name: "default",
     model: "cnn",
@@ -48,7 +48,7 @@ const BEST: Preset = Preset {
     settings: DEFAULT.settings,
 };
 
-/// All presets, the fastest first. docs/models.md states their basis, cost and accuracy.
+/// All presets, the fastest first. Their costs and accuracies are in docs/models.md.
 pub const PRESETS: &[Preset] = &[FAST, DEFAULT, BEST];
 
 impl Preset {
@@ -57,13 +57,13 @@ impl Preset {
         PRESETS.iter().find(|preset| preset.name == name)
     }
 
-    /// Combines the preset with the settings `given`. A setting in `given` overrides the preset.
+    /// Settings of the preset and `given` together. A setting in `given` overrides the preset.
     #[must_use]
     pub fn changed_by(&self, given: ModelSettings) -> ModelSettings {
         given.or(self.settings)
     }
 
-    /// Settings of the model, without the settings of features.
+    /// Settings of the preset for the model only, without the settings for features.
     pub(crate) fn of_model(&self) -> ModelSettings {
         let all = self.changed_by(ModelSettings::default());
         all.partition(FeatureSpec::SETTINGS).1

@@ -1,6 +1,6 @@
 //! Candidate strengths of ridge regression.
 
-/// Candidate strengths: 41 values, four per decade, from a negligible penalty to a penalty that leaves only the mean.
+/// Candidate strengths from 10⁻⁶ to 10⁴, four per decade. The weakest is negligible. With the strongest, the model predicts nearly the mean.
 pub(super) fn grid() -> Vec<f64> {
     (-24..=16)
         .map(|quarter| 10_f64.powf(f64::from(quarter) / 4.0))

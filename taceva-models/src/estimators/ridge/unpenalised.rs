@@ -11,7 +11,7 @@ use crate::training::problem::{Problem, Validation, centred};
 use crate::training::trials::{Trials, rows_of};
 
 impl Ridge {
-    /// Fits by least squares, without a Gram matrix, whose spectrum would lose half of the digits.
+    /// Fits by least squares without a penalty. No Gram matrix is formed, because its eigenvalues lose half of the digits.
     pub(super) fn fit_unpenalised(
         &self,
         training: &TrainingSet<'_>,

@@ -6,18 +6,18 @@ use taceva_core::Features;
 /// Maximum number of bins of a feature.
 pub(super) const BINS: usize = 256;
 
-/// Bin of each feature of each sample.
+/// Bin number of each feature of each sample, and the edges between bins.
 #[derive(Debug)]
 pub(super) struct Binned {
-    /// Bin numbers of all samples, feature by feature.
+    /// Bin numbers. The numbers of all samples in one feature are adjacent.
     bins: Vec<u8>,
-    /// Edges between the bins of each feature. A bin includes its upper edge.
+    /// Ascending edges between the bins of each feature. A value equal to an edge belongs to the bin below the edge.
     edges: Vec<Vec<f32>>,
     samples: usize,
 }
 
 impl Binned {
-    /// Builds bins with about equally many samples each.
+    /// Divides the values of each feature into at most 256 bins with about equal numbers of samples.
     pub(super) fn new(features: &Features) -> Binned {
         let (samples, width) = (features.samples(), features.shape().len());
         let mut bins = vec![0; samples * width];
@@ -46,18 +46,18 @@ impl Binned {
         self.edges.len()
     }
 
-    /// Bin numbers of all samples in one feature.
+    /// Bin number of each sample for the feature with the index `feature`.
     pub(super) fn of(&self, feature: usize) -> &[u8] {
         &self.bins[feature * self.samples..(feature + 1) * self.samples]
     }
 
-    /// Upper edge of the bin `bin`, which must not be the last bin.
+    /// Upper edge of a bin of the feature with the index `feature`. The bin must not be the last.
     pub(super) fn edge(&self, feature: usize, bin: usize) -> f32 {
         self.edges[feature][bin]
     }
 }
 
-/// Bin edges near the quantiles, each between distinct values.
+/// Ascending bin edges near the quantiles of `values`. Each edge lies between two distinct values.
 fn edges(values: &[f32]) -> Vec<f32> {
     let mut sorted = values.to_vec();
     sorted.sort_unstable_by(f32::total_cmp);

@@ -1,4 +1,4 @@
-//! Gradient boosting.
+//! Gradient boosting: sums of trees, each fitted to the errors of earlier trees.
 
 use faer::Mat;
 use rayon::prelude::*;
@@ -18,10 +18,10 @@ use crate::training::problem::{Problem, centred};
 use crate::training::regressor::ModelRegressor;
 use crate::training::trials::{Trials, rows_of};
 
-/// Gradient boosting of squared errors: fits each tree to the residuals of the previous trees, and adds a share of its predictions.
+/// Gradient boosting of squared errors. Each tree is fitted to the residuals of the previous trees, and a share of its predictions is added.
 ///
-/// Each channel has its own trees. The number of trees has the least squared error on the validation part, or on folds of the training part without a
-/// validation part.
+/// Each channel has its own trees. Their number is chosen by the least squared error on the validation part. Without a validation part, folds of the
+/// training part are left out in turn.
 ///
 /// # Reference
 /// J. H. Friedman, Ann. Stat. 29 (2001) 1189, algorithm 2; Comput. Stat. Data Anal. 38 (2002) 367 (features are drawn here instead of samples).
@@ -35,7 +35,7 @@ pub struct GradientBoosting {
     refit: bool,
 }
 
-/// Boosted trees of one channel.
+/// Channel to fit, and the number of its trees.
 #[derive(Clone, Copy)]
 struct Ensemble {
     channel: usize,
@@ -43,7 +43,7 @@ struct Ensemble {
     trees: usize,
 }
 
-/// Settings for the growth of each tree.
+/// Limits of each tree: share of features per split, depth, and samples per leaf.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Growing {
     share: f64,
@@ -95,7 +95,7 @@ const SEED: SettingInfo = SettingInfo {
 };
 
 impl GradientBoosting {
-    /// Registry entry.
+    /// Entry of gradient boosting in the model registry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "gradient-boosting",
         about: "gradient boosting: trees that are each fitted to the errors of earlier trees",
@@ -134,7 +134,8 @@ impl GradientBoosting {
         })
     }
 
-    /// Calls `take` with each tree of a channel, with values multiplied by the rate. The first tree is fitted to `labels`.
+    /// Fits the trees of one channel to centred `labels`, and calls `take` with each. The predictions of each tree are already multiplied by the
+    /// learning rate.
     fn boost(
         &self,
         features: &Features,

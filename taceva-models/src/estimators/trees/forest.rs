@@ -1,4 +1,4 @@
-//! Random forests.
+//! Random forests: means of trees that are fitted to random samples.
 
 use faer::Mat;
 use rayon::prelude::*;
@@ -19,10 +19,10 @@ use crate::training::problem::{Problem, centred};
 use crate::training::regressor::ModelRegressor;
 use crate::training::trials::{Trials, rows_of};
 
-/// Random forest for each channel: averages trees. Each tree has its own random draw of samples, and each split its own draw of features.
+/// Random forest: the prediction of a channel is the mean over its trees. Each tree draws its own samples, and each split its own features.
 ///
-/// No setting is chosen by error. With a validation part, a forest fitted to the training part is scored on the validation part. The final forest learns from
-/// both parts unless `refit` is false.
+/// No setting is chosen by error. With a validation part, a forest fitted to the training part is scored on it. The final forest then learns from
+/// both parts, unless `refit` is false.
 ///
 /// # Reference
 /// L. Breiman, Mach. Learn. 45 (2001) 5.
@@ -68,7 +68,7 @@ const SEED: SettingInfo = SettingInfo {
 };
 
 impl RandomForest {
-    /// Registry entry.
+    /// Entry of the random forest in the model registry.
     pub const INFO: ModelInfo = ModelInfo {
         name: "random-forest",
         about: "the mean of many trees: the scale of features does not matter, and outliers change little",
@@ -94,7 +94,7 @@ impl RandomForest {
         })
     }
 
-    /// Grows the trees of every channel from `features` and centred labels.
+    /// Grows the trees of every channel on `features` and the centred `labels`. Their predictions are divided by the number of trees.
     fn grown(
         &self,
         features: &Features,
@@ -138,7 +138,7 @@ impl RandomForest {
         trees.collect()
     }
 
-    /// Fits a forest to the samples `rows` of `trials`.
+    /// Fits a forest to the samples of `trials` with the indices `rows`.
     fn regressor(
         &self,
         problem: &Problem<'_>,
@@ -157,17 +157,17 @@ impl RandomForest {
     }
 }
 
-/// Parses a share above 0 and at most 1; `None` for any other text.
+/// Parses a setting that is a share: a number above 0 and at most 1. `None` for any other text.
 pub(super) fn share(text: &str) -> Option<f64> {
     number(text, 0.0..=1.0).filter(|share| *share > 0.0)
 }
 
-/// Number of features in the share `share` of `features`, at least one.
+/// Number of features that a split considers: `share` × `features`, rounded up, at least one.
 pub(super) fn part(share: f64, features: usize) -> usize {
     whole_size((share * features as f64).ceil().max(1.0))
 }
 
-/// Random generator of draw `number`. Draws with the same seed and different numbers are independent.
+/// Random generator of the tree with the index `number`. Generators with the same seed and different numbers are independent.
 pub(super) fn draw(seed: u64, number: usize) -> SplitMix64 {
     SplitMix64::new(SplitMix64::new(seed ^ (number as u64).rotate_left(32)).next_u64())
 }

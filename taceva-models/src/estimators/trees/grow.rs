@@ -7,32 +7,32 @@ use super::bins::Binned;
 use super::histogram::Histogram;
 use taceva_core::random::SplitMix64;
 
-/// Limits of a tree's growth.
+/// Limits on the size of one tree, and the number of features per split.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Growth {
     /// Maximum depth: number of comparisons from the root to a leaf.
     pub(super) depth: usize,
     /// Minimum number of samples in a leaf.
     pub(super) leaf: usize,
-    /// Number of features considered for a split. The features are drawn for each split.
+    /// Number of features considered for a split. They are drawn at random for each split.
     pub(super) features: usize,
 }
 
-/// Tree with root node 0. The children of a node are adjacent and come after it.
+/// Binary regression tree. Node 0 is the root. The two children of a node are adjacent and have greater indices than the node.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Tree {
-    /// Index of the feature that each node compares.
+    /// Index of the feature that each node compares; 0 for a leaf.
     pub(super) feature: Vec<u32>,
-    /// Largest feature value for which a sample goes to the left child.
+    /// Threshold of each node. A sample goes to the left child if its feature is at most the threshold.
     pub(super) threshold: Vec<f32>,
-    /// Index of the left child; the right child has the next index. 0 for a leaf.
+    /// Index of each node's left child. The right child has the next index. 0 marks a leaf.
     pub(super) left: Vec<u32>,
-    /// Mean of each output over the samples of each node.
+    /// Predicted value of each output at each node, node by node. A new tree has the means over its samples; ensembles multiply them by a factor.
     pub(super) values: Vec<f64>,
 }
 
 impl Tree {
-    /// Index of the leaf that a sample reaches.
+    /// Index of the leaf that the features `sample` reach.
     pub(super) fn leaf(&self, sample: &[f32]) -> usize {
         let mut node = 0;
         while self.left[node] > 0 {
@@ -43,7 +43,7 @@ impl Tree {
     }
 }
 
-/// A candidate split, and the variance that it explains.
+/// A candidate split of a node: samples up to `bin` go left. Among splits of one node, the greatest `gain` explains the most variance.
 #[derive(Clone, Copy, Debug)]
 struct Question {
     gain: f64,
@@ -51,7 +51,7 @@ struct Question {
     bin: usize,
 }
 
-/// Binned features and targets for growing trees.
+/// Binned features and targets of the samples, from which trees are grown.
 pub(super) struct Samples<'a> {
     pub(super) binned: &'a Binned,
     /// Targets, with one row per sample and one column per output.
@@ -60,10 +60,10 @@ pub(super) struct Samples<'a> {
 }
 
 impl Samples<'_> {
-    /// Grows a tree on the samples `rows`, which may contain duplicates.
+    /// Grows a tree on the samples with the indices `rows`, which may repeat.
     ///
-    /// Each split explains the greatest part of the variance, summed over all outputs. Of equal splits, the split with the first feature and the
-    /// lowest bin is chosen. One thread sums each feature, in the order of `rows`.
+    /// Each split explains the greatest part of the variance, summed over all outputs. Of equal splits, the first feature and then the lowest bin
+    /// win. One thread sums each feature in the order of `rows`, so results do not depend on the number of threads.
     pub(super) fn grow(&self, mut rows: Vec<u32>, random: &mut SplitMix64) -> Tree {
         let mut tree = Tree::default();
         let mut order: Vec<usize> = (0..self.binned.features()).collect();
@@ -99,7 +99,7 @@ impl Samples<'_> {
         tree
     }
 
-    /// Appends a leaf with the samples `rows`.
+    /// Appends a leaf to `tree`. Its values are the target means over the samples `rows`.
     fn push(&self, tree: &mut Tree, rows: &[u32]) {
         tree.feature.push(0);
         tree.threshold.push(0.0);
@@ -111,7 +111,7 @@ impl Samples<'_> {
         }
     }
 
-    /// Draws feature indices without replacement, and returns them in ascending order.
+    /// Draws the features for one split, without replacement. Returns their indices in ascending order, and reorders `order`.
     fn draw(&self, order: &mut [usize], random: &mut SplitMix64) -> Vec<usize> {
         let count = self.growth.features.min(order.len());
         for position in 0..count {

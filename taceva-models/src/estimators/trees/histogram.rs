@@ -4,7 +4,7 @@ use faer::Mat;
 
 use super::bins::BINS;
 
-/// Number of samples and sums of outputs in each bin.
+/// Number of samples in each bin, and the sum of each target over these samples.
 pub(super) struct Histogram {
     pub(super) counts: Vec<u32>,
     pub(super) sums: Vec<f64>,
@@ -23,7 +23,7 @@ impl Histogram {
         }
     }
 
-    /// Adds `rows` to an empty histogram.
+    /// Counts and sums the samples with the indices `rows`. The histogram must be empty before.
     pub(super) fn fill(&mut self, bins: &[u8], targets: &Mat<f64>, rows: &[u32]) {
         for &row in rows {
             let bin = bins[row as usize];

@@ -1,4 +1,4 @@
-//! Fitted trees, whose predictions are summed.
+//! Fitted forests and boosted trees. Their prediction is the sum over trees.
 
 use rayon::prelude::*;
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
@@ -11,7 +11,7 @@ use crate::training::file::tensors::{Raw, Tensors};
 use crate::training::output::{OutputScale, check_call, check_finite};
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// Sum of trees, each of which predicts one channel or all channels.
+/// Fitted model whose prediction is the sum of its trees. Each tree predicts one channel or all channels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TreeRegressor {
     channels: Channels,
@@ -20,7 +20,7 @@ pub struct TreeRegressor {
     trees: Vec<Member>,
 }
 
-/// A tree and its channel.
+/// One tree of a model, and the channel that it predicts.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Member {
     pub(super) tree: Tree,
@@ -28,10 +28,10 @@ pub(super) struct Member {
     pub(super) channel: Option<usize>,
 }
 
-/// Number of samples per task of a thread.
+/// Number of samples that one parallel task predicts.
 const CHUNK: usize = 64;
 
-/// Channel number in files that marks trees for all channels.
+/// Channel number in model files for a tree that predicts all channels.
 const ALL: u32 = u32::MAX;
 
 const CHANNEL: &str = "trees.channel";
@@ -44,7 +44,7 @@ const THRESHOLD: &str = "trees.threshold";
 const VALUES: &str = "trees.values";
 
 impl TreeRegressor {
-    /// Builds a regressor from trees. The values of the trees, in centred and scaled labels, sum to the prediction.
+    /// Builds a regressor from its trees. The trees predict scaled labels minus their mean; `scale` converts their sum to labels.
     pub(super) fn new(
         channels: Channels,
         shape: FeatureShape,
@@ -86,7 +86,7 @@ impl TreeRegressor {
         stored.on_components(TreeRegressor::from_tensors)
     }
 
-    /// Builds the model from the tensors of a file. Checks that every tree ends in leaves and compares existing features.
+    /// Builds the model from the tensors of a file. Rejects trees with an invalid child, an unknown feature or a number that is not finite.
     fn from_tensors(
         tensors: &Tensors<'_>,
         channels: Channels,
@@ -132,7 +132,7 @@ impl TreeRegressor {
     }
 }
 
-/// True if every child comes after its parent, every feature exists and every number is finite.
+/// True if every child comes after its parent, every compared feature exists and every number is finite.
 fn is_sound(tree: &Tree, features: usize) -> bool {
     let nodes = tree.left.len();
     let mut asked = tree.left.iter().zip(&tree.feature).enumerate();

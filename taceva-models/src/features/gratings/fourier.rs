@@ -1,4 +1,4 @@
-//! Discrete Fourier transform for powers of two.
+//! Discrete Fourier transform of sequences whose length is a power of two.
 
 use std::f64::consts::TAU;
 
@@ -43,15 +43,15 @@ impl Complex {
     }
 }
 
-/// Discrete Fourier transform of one length: X\[k\] = Σ x\[n\] exp(−2πi kn/N) (Cooley and Tukey, 1965).
+/// Discrete Fourier transform of N values: X\[k\] = Σ x\[n\] exp(−2πi kn/N), summed over n. The algorithm is that of Cooley and Tukey (1965).
 #[derive(Clone, Debug)]
 pub(super) struct Fourier {
-    /// Factors exp(−2πi k/N) for the first half of the circle.
+    /// Factors exp(−2πi k/N) for k from 0 to N/2 − 1.
     turns: Vec<Complex>,
 }
 
 impl Fourier {
-    /// Prepares a transform. `length` must be a power of two.
+    /// Prepares a transform of `length` values. `length` must be a power of two.
     pub(super) fn new(length: usize) -> Fourier {
         debug_assert!(length.is_power_of_two(), "{length}");
         let turns = (0..length / 2).map(|position| {

@@ -5,10 +5,11 @@ use taceva_core::{Frame, FrameInfo};
 use super::fourier::{Complex, Fourier};
 use crate::features::FeatureError;
 
-/// Logarithms of the mean power in rings of equal width in the Fourier plane.
+/// Power spectrum of a picture: logarithms of the mean power in rings of equal width around spatial frequency 0.
 ///
-/// The picture is centred, multiplied by a Hann window, and zero-padded to a square whose side is a power of two. Ring b of B contains the waves with b/(2B) ≤
-/// √(f_x² + f_y²) < (b + 1)/(2B) cycles per pixel. Rotating or shifting a grating does not change the rings of its waves.
+/// The picture minus its mean is multiplied by a Hann window, and padded with zeros to a square. The side of the square is a power of two. Ring b of
+/// B contains the waves with b/(2B) ≤ √(f_x² + f_y²) < (b + 1)/(2B). Their frequencies f_x to the right and f_y down are in cycles per pixel.
+/// Rotating or shifting a grating does not change the rings of its waves.
 ///
 /// # Shapes
 /// One value per ring, from the lowest to the highest frequency.
@@ -18,7 +19,7 @@ pub struct RadialSpectrum {
     side: usize,
     fourier: Fourier,
     windows: [Vec<f64>; 2],
-    /// Ring index of each point of the plane; `None` for a point beyond the last ring.
+    /// Index of the ring of each Fourier coefficient, row by row. `None` for frequencies beyond the last ring.
     rings: Vec<Option<usize>>,
     counts: Vec<f64>,
 }
@@ -27,7 +28,7 @@ impl RadialSpectrum {
     /// Number of rings of a spectrum.
     pub const RINGS: usize = 48;
 
-    /// Prepares spectra of pictures of `info`.
+    /// Prepares the spectra of pictures with the size and format `info`.
     pub fn new(info: FrameInfo) -> RadialSpectrum {
         let [width, height] = [info.width, info.height].map(|side| side as usize);
         let side = width.max(height).max(2 * RadialSpectrum::RINGS);
@@ -49,12 +50,12 @@ impl RadialSpectrum {
         }
     }
 
-    /// Size of a Fourier plane in memory, in bytes.
+    /// Memory of one [`FourierPlane`], in bytes.
     pub fn plane_bytes(&self) -> u64 {
         (self.side * self.side * size_of::<Complex>()) as u64
     }
 
-    /// Computes the Fourier plane of `frame`.
+    /// Computes the Fourier coefficients of `frame`.
     ///
     /// # Errors
     /// [`FeatureError::Kind`] for a frame of another size or format.
@@ -70,12 +71,12 @@ impl RadialSpectrum {
         })
     }
 
-    /// Spectrum of a plane.
+    /// Power spectrum of a picture with the Fourier coefficients `plane`: the logarithm of the mean power in each ring.
     pub fn of(&self, plane: &FourierPlane) -> Vec<f64> {
         self.spectrum(plane.waves.iter().map(|wave| wave.power()))
     }
 
-    /// Spectrum of `plane` minus a mean plane, such as a constant background. The mean plane is `sum`, the sum of `count` planes, divided by `count`.
+    /// Power spectrum of `plane` minus the mean of `count` planes, such as a constant background. `sum` is the sum of these planes.
     pub fn beyond(&self, plane: &FourierPlane, sum: &FourierPlane, count: f64) -> Vec<f64> {
         let waves = plane.waves.iter().zip(&sum.waves);
         self.spectrum(waves.map(|(wave, sum)| wave.minus(sum.scaled(1.0 / count)).power()))
@@ -95,7 +96,7 @@ impl RadialSpectrum {
             .collect()
     }
 
-    /// Fourier coefficients of a windowed picture, as a transposed plane.
+    /// Fourier coefficients of the gray values `luma` after windowing. Coefficients of one horizontal frequency are adjacent.
     fn waves(&self, luma: &[f64]) -> Vec<Complex> {
         let [across, down] = &self.windows;
         let (side, width) = (self.side, across.len());
@@ -122,14 +123,14 @@ impl RadialSpectrum {
     }
 }
 
-/// Fourier coefficients of a picture. The sum of planes is the plane of the summed pictures.
+/// Fourier coefficients of one picture. Adding the planes of two pictures gives the plane of their sum.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FourierPlane {
     waves: Vec<Complex>,
 }
 
 impl FourierPlane {
-    /// Adds the plane of a picture of the same size. An empty plane accepts any size.
+    /// Adds the coefficients of a picture of the same size. A plane without coefficients becomes a copy of `other`.
     pub fn add(&mut self, other: &FourierPlane) {
         if self.waves.is_empty() {
             self.waves = vec![Complex::default(); other.waves.len()];
@@ -140,7 +141,7 @@ impl FourierPlane {
     }
 }
 
-/// Ring index of the wave numbers `waves` in a square of side `side`; `None` beyond the last ring.
+/// Index of the ring of the wave numbers `waves`, in cycles per `side` pixels. `None` beyond the last ring.
 fn ring(waves: [usize; 2], side: usize) -> Option<usize> {
     let cycles = waves.map(|wave| wave.min(side - wave));
     // (2B f)² = (2B)² (k² + l²) / N², in integers.
@@ -149,7 +150,7 @@ fn ring(waves: [usize; 2], side: usize) -> Option<usize> {
     (ring < RadialSpectrum::RINGS).then_some(ring)
 }
 
-/// Hann window with nonzero ends: w\[n\] = sin²(π (n + ½)/N).
+/// Hann window of N = `length` values: w\[n\] = sin²(π (n + ½)/N). No value is 0.
 fn hann(length: usize) -> Vec<f64> {
     let place = |position: usize| {
         let part = (position as f64 + 0.5) / length as f64;
@@ -158,7 +159,7 @@ fn hann(length: usize) -> Vec<f64> {
     (0..length).map(place).collect()
 }
 
-/// Gray values of a frame; for RGB, (299 R + 587 G + 114 B) / 1000.
+/// Gray values of a frame, in the units of its samples. For RGB, (299 R + 587 G + 114 B) / 1000.
 fn luma(frame: &Frame) -> Vec<f64> {
     let samples: Vec<f64> = frame.samples().map(f64::from).collect();
     match frame.info().format.samples() {
@@ -188,7 +189,7 @@ mod tests {
         }
     }
 
-    /// Test picture of lines with `cycles` cycles per pixel, rotated by `turn` degrees and shifted by `offset` pixels.
+    /// Test picture of parallel lines at `cycles` per pixel. The lines are rotated by `turn` degrees and shifted by `offset` pixels.
     fn lines(cycles: f64, turn: f64, offset: f64) -> Frame {
         let (sin, cos) = turn.to_radians().sin_cos();
         let pixel = |place: u32| {

@@ -1,4 +1,4 @@
-//! Displacements of markers as features: a displacement field over the cells of a grid.
+//! Features from the displacements of markers, interpolated to the cells of a grid.
 
 use taceva_core::{Frame, single};
 
@@ -10,25 +10,25 @@ use crate::features::FeatureError;
 use crate::features::cell_features::CellFeatures;
 use crate::features::spec::FeatureSpec;
 
-/// Number of markers from which a cell is interpolated.
+/// Maximum number of markers from which the displacement of a cell is interpolated. They are the nearest markers.
 const SPEAKERS: usize = 12;
-/// Number of nearest markers of a cell for which the unseen share is computed.
+/// Number of nearest markers over which a cell's share of unseen markers is computed.
 const NEAREST: usize = 4;
-/// Largest distance of an interpolated cell from the nearest marker, in marker spacings.
+/// Largest distance from a cell's centre to the nearest marker, in marker spacings. The values of more distant cells are 0.
 const REACH: f64 = 1.5;
 
-/// Three values per cell. The first two are the displacement of the gel to the right and down at the cell's centre, in marker spacings. The third
-/// is the unseen share of its four nearest markers.
+/// Three values per cell. The first two are the gel's displacement at the cell's centre, to the right and down, in marker spacings. The third is the
+/// share of the four nearest markers that are not visible.
 ///
-/// Displacements are interpolated linearly between markers. Cells without a marker nearby contain zeros. The field shows the stretch of the gel: shear
-/// directly, and depth by the spreading of markers. It does not show changes of light, or details smaller than the spacing.
+/// Displacements are interpolated linearly between markers. Cells without a marker nearby contain zeros. Shear displaces markers, and pressure
+/// spreads them. Changes of light, and details smaller than the spacing of markers, are not seen.
 #[derive(Debug)]
 pub(crate) struct MarkerField {
     tracker: MarkerTracker,
     cells: Vec<Cell>,
 }
 
-/// Centre of a cell, and the markers from which its displacement is interpolated. A cell has no markers if none is near.
+/// Centre of a cell, and the markers from which its displacement is interpolated. The list of markers is empty if the nearest is too far.
 #[derive(Debug)]
 struct Cell {
     middle_px: [f64; 2],

@@ -1,44 +1,44 @@
-//! Detects the marker grid of an untouched gel.
+//! Detection of the grid of markers on an untouched gel.
 
 use super::plane::Plane;
 use super::spots::{Marker, Polarity, Scale, distance, spots};
 
-/// Minimum contrast of a marker, in standard deviations of noise. By chance, fewer than one in a million pixels exceed this contrast.
+/// Minimum contrast of a marker, in standard deviations of the contrast that noise causes. Noise exceeds it in less than one of a million pixels.
 const SIGNIFICANT: f32 = 6.0;
-/// Minimum contrast of a marker, relative to the upper quartile of all spots. The low value allows for uneven lamps.
+/// Minimum contrast of a marker, relative to the upper quartile of the contrast of all spots. The low value allows for uneven light.
 const ALIKE: f32 = 0.15;
-/// Minimum number of marker columns across the shorter side of a frame.
+/// Smallest number of markers expected along the shorter side of a frame. It gives the largest spacing that is tried.
 const ACROSS_MIN: f64 = 4.0;
-/// Smallest spacing of markers, in pixels.
+/// Smallest spacing of markers that is tried, in pixels.
 const SPACING_MIN_PX: f64 = 5.0;
-/// Ratio of each tried spacing to the previous spacing.
+/// Ratio of each tried spacing of markers to the spacing tried before.
 const FINER: f64 = 0.8;
-/// Number of neighbours that determine the local spacing of a marker.
+/// Number of neighbours that determine a marker's local spacing, in addition to the marker.
 const NEIGHBOURS: usize = 6;
-/// Minimum number of spots in a grid. Fewer spots would fit into any arrangement.
+/// Minimum number of spots for the test of evenness. Fewer spots pass without it, because they fit any arrangement.
 const GRID_MIN: usize = 9;
-/// Largest allowed unevenness of a grid. Unevenness is the median relative excess of the distance to the third nearest spot over the distance to the
-/// nearest. The unevenness is 0 in square and hexagonal grids, and about 0.5 for random spots.
+/// Largest allowed unevenness of a grid. For each spot, the distance to its third nearest spot is divided by the distance to its nearest. Unevenness
+/// is the median of this ratio minus 1. It is 0 in square and hexagonal grids, and about 0.5 for random spots.
 const UNEVEN: f64 = 0.3;
 
-/// Markers of an untouched gel.
+/// Grid of the markers of an untouched gel, with the settings of its detection.
 #[derive(Clone, Debug)]
 pub(super) struct Lattice {
-    /// Scale of detection, which is also used for other frames.
+    /// Polarity and spacing with which the markers were detected. Later frames use the same.
     pub(super) scale: Scale,
-    /// Typical spacing of markers, in pixels.
+    /// Median of the local spacings of markers, in pixels.
     pub(super) spacing_px: f64,
-    /// Minimum contrast of a spot.
+    /// Contrast that a spot must exceed to count as a marker.
     pub(super) least: f32,
-    /// Markers, highest contrast first.
+    /// Markers in descending order of contrast.
     pub(super) markers: Vec<Marker>,
-    /// Local spacing around each marker, in pixels.
+    /// Local spacing at each marker, in pixels, in the order of `markers`.
     pub(super) spacings_px: Vec<f64>,
     unevenness: f64,
 }
 
 impl Lattice {
-    /// Finds the marker grid of `picture`. Tries all polarities and scales, and returns the grid with the best score.
+    /// Finds the grid of markers in `picture`. Dark and bright markers of several sizes are tried, and the grid with the highest score wins.
     ///
     /// # Errors
     /// Number of spots found, if the spots form no grid.
@@ -79,7 +79,7 @@ impl Lattice {
         }
     }
 
-    /// Detects spots at one scale and computes their spacings; `None` without spots.
+    /// Detects spots of one polarity and size, and computes their spacings. `None` if no spot is found.
     fn at(picture: &Plane, scale: Scale, noise: f32) -> Option<Lattice> {
         let significant = SIGNIFICANT * scale.noise_gain() * noise;
         let mut markers = spots(picture, scale, significant);
@@ -102,14 +102,15 @@ impl Lattice {
         })
     }
 
-    /// Quality of the grid: high for many spots with high contrast at even distances.
+    /// Quality of the grid. Many spots, high contrast and even distances give a high value.
     fn score(&self) -> f64 {
         let contrast = f64::from(self.markers[self.markers.len() / 2].contrast);
         (self.markers.len() as f64).sqrt() * contrast * (-4.0 * self.unevenness).exp()
     }
 }
 
-/// Local spacing around each marker, in pixels; `otherwise` for a single marker.
+/// Local spacing at each marker, in pixels: the median distance to the nearest marker, taken over the marker and its neighbours. `otherwise` for a
+/// single marker.
 fn spacings(markers: &[Marker], otherwise: f64) -> Vec<f64> {
     let nearest = nearest_distances(markers, otherwise);
     let places: Vec<[f64; 2]> = markers.iter().map(|marker| marker.place_px).collect();
@@ -133,7 +134,8 @@ fn nearest_distances(markers: &[Marker], otherwise: f64) -> Vec<f64> {
     markers.iter().enumerate().map(of).collect()
 }
 
-/// Median relative excess of the distance to the third nearest marker over the distance to the nearest. Needs at least four markers.
+/// Distance of a marker to its third nearest marker, divided by the distance to its nearest, minus 1. The result is the median over at least four
+/// markers.
 fn unevenness(markers: &[Marker]) -> f64 {
     let places: Vec<[f64; 2]> = markers.iter().map(|marker| marker.place_px).collect();
     let of = |own: &[f64; 2]| {
@@ -145,7 +147,7 @@ fn unevenness(markers: &[Marker]) -> f64 {
     median(places.iter().map(of).collect())
 }
 
-/// Indices of the `count` places closest to `place`, sorted by distance. Equal distances are sorted by index.
+/// Indices of the `count` positions in `places` that are closest to `place`, the closest first. Equal distances are sorted by index.
 pub(super) fn closest(place: [f64; 2], places: &[[f64; 2]], count: usize) -> Vec<usize> {
     let mut order: Vec<(f64, usize)> = places
         .iter()

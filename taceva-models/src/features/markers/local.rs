@@ -1,21 +1,22 @@
-//! Displacement of a point, computed from its neighbours by a local linear model of stretch, rotation and shear.
+//! Displacement of a point of the gel, computed from nearby markers. It is assumed to be linear in position, which allows stretch, rotation and
+//! shear.
 
 use super::spots::distance;
 
 /// A place and its displacement, both in pixels.
 pub(super) type Moved = ([f64; 2], [f64; 2]);
 
-/// Distance, in marker spacings, below which weights are nearly constant.
+/// Distance, in marker spacings, below which the weight of a neighbour hardly grows.
 const NEAR: f64 = 0.3;
-/// Addend to the diagonal of the normal equations, where a place at a distance of one spacing contributes about 1. Limits gradients if all neighbours are on
-/// one line.
+/// Addend to the diagonal of the normal equations, which keeps gradients small if all neighbours are on one line. A neighbour at a distance of one
+/// spacing contributes at most 1.
 const STIFF: f64 = 0.05;
 
-/// Displacement of `place`, if the displacements around it are linear in position. Computed by least squares, weighted by 1 / distance²; `None` without
-/// neighbours.
+/// Displacement at `place`, assumed to be linear in position around it. The fit is by least squares with weights 1 / (distance² + `NEAR`²), in marker
+/// spacings. `None` without neighbours.
 ///
-/// The result is `d̄ - G ū`, with weighted means `ū` of positions and `d̄` of displacements. `G` solves the normal equations with `STIFF`
-/// added to their diagonal.
+/// The result is `d̄ - G ū`. Here `ū` is the weighted mean of the neighbours' positions relative to `place`, and `d̄` that of their displacements.
+/// `G` is the gradient that solves the normal equations, with `STIFF` added to their diagonal.
 pub(super) fn displacement(
     place: [f64; 2],
     spacing_px: f64,

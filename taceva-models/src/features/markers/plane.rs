@@ -4,7 +4,7 @@ use taceva_core::{Frame, single};
 
 use crate::features::pixels::{LUMA, LUMA_SUM};
 
-/// Gray values row by row; full scale is 1.
+/// Gray picture: brightness of its pixels row by row. Full scale is 1.
 #[derive(Clone, Debug)]
 pub(super) struct Plane {
     pub(super) width: usize,
@@ -13,7 +13,7 @@ pub(super) struct Plane {
 }
 
 impl Plane {
-    /// Luma of `frame` (Rec. ITU-R BT.601).
+    /// Converts `frame` to gray: luma by Rec. ITU-R BT.601, where full scale is 1.
     pub(super) fn of(frame: &Frame) -> Plane {
         let info = frame.info();
         let full_scale = f64::from(info.format.full_scale());
@@ -39,8 +39,8 @@ impl Plane {
         }
     }
 
-    /// Mean over a square of `2 radius + 1` pixels around each pixel. The square shrinks symmetrically near the border, so that the mean of a linear light
-    /// gradient is unbiased.
+    /// Mean around each pixel, over a square with sides of `2 radius + 1` pixels. Near the border the square shrinks to both sides alike. The mean of
+    /// brightness that changes linearly thus equals the brightness at the pixel.
     pub(super) fn local_mean(&self, radius: usize) -> Plane {
         let across = self.means_across(radius);
         Plane {
@@ -64,7 +64,7 @@ impl Plane {
         means
     }
 
-    /// Means over columns by running sums: each step adds one row and subtracts one row.
+    /// Mean of each value's column over up to `radius` rows above and below it. Running sums add one row and subtract one row per step.
     fn means_down(&self, values: &[f64], radius: usize) -> Vec<f32> {
         let row = |index: usize| &values[index * self.width..][..self.width];
         let mut sums = vec![0.0; self.width];
@@ -90,11 +90,12 @@ impl Plane {
         means
     }
 
-    /// Standard deviation of pixel noise, computed by the median, so that edges have no effect. At least the deviation of rounding to 8 bits.
+    /// Standard deviation of the noise of pixels, estimated from a median so that edges hardly count. At least the standard deviation of rounding to
+    /// 8 bits.
     pub(super) fn noise(&self) -> f32 {
-        /// Factor from the median absolute deviation to the standard deviation. Valid for normal noise minus its mean over nine pixels.
+        /// Factor from the median absolute deviation to the standard deviation, for normal noise from which the mean of nine pixels was subtracted.
         const DEVIATIONS: f32 = 1.4826 * 1.0607;
-        /// Standard deviation of rounding to 8 bits: one level divided by √12.
+        /// Standard deviation of rounding to 8 bits, relative to full scale: one level divided by √12.
         const ROUNDING: f32 = 0.2887 / 255.0;
         let means = self.local_mean(1);
         let pairs = self.values.iter().zip(&means.values);
@@ -105,7 +106,7 @@ impl Plane {
     }
 }
 
-/// Symmetric window of at most `radius` positions to each side, within `length`.
+/// Range of indices, end excluded, that extends equally to both sides of `position`: by `radius`, or less at the ends of `length` values.
 fn window(position: usize, radius: usize, length: usize) -> (usize, usize) {
     let radius = radius.min(position).min(length - 1 - position);
     (position - radius, position + radius + 1)

@@ -1,4 +1,4 @@
-//! Fitted ensembles.
+//! Fitted ensembles of networks.
 
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 use taceva_network::NamedTensor;
@@ -16,14 +16,14 @@ use crate::training::regressor::{FittedModel, ModelRegressor};
 /// Maximum number of members of an ensemble.
 pub(super) const MEMBERS_MOST: usize = 16;
 
-/// Fitted networks whose predictions are averaged.
+/// Fitted networks of one ensemble. Predictions are averaged over the networks.
 #[derive(Clone, Debug)]
 pub struct EnsembleRegressor {
     members: Vec<NetworkRegressor>,
 }
 
 impl EnsembleRegressor {
-    /// Builds a regressor from networks.
+    /// Builds an ensemble from its fitted networks.
     ///
     /// # Errors
     /// [`ModelError`] if the number of networks is out of range, or if channels or features of the networks differ.
@@ -41,7 +41,7 @@ impl EnsembleRegressor {
         Ok(EnsembleRegressor { members })
     }
 
-    /// Loads the networks from a file. The tensor names of each member have their own prefix.
+    /// Loads the networks of an ensemble from a file. The tensor names of each network have a prefix of their own.
     pub(super) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
         let mut found = named_tensors(&stored.tensors)?;
         let mut members = Vec::new();
@@ -70,7 +70,7 @@ impl EnsembleRegressor {
     }
 }
 
-/// Prefix of a member's tensor names.
+/// Prefix of the tensor names of the network with index `member`.
 fn prefix(member: usize) -> String {
     format!("member{member}.")
 }

@@ -1,4 +1,4 @@
-//! Leave-one-group-out errors.
+//! Leave-one-group-out errors of ridge regression.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
@@ -12,7 +12,7 @@ use crate::linalg::multiply;
 use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::training::choice::Errors;
 
-/// Precomputed terms of one group, which do not depend on the penalty.
+/// Precomputed matrices of one left-out group. They do not depend on the penalty.
 struct Group {
     /// Rows of the eigenvectors U of [`LeaveOut`] that belong to the group.
     vectors: Mat<f64>,
@@ -23,7 +23,7 @@ struct Group {
 }
 
 impl LeaveOut<'_> {
-    /// Mean squared error of each target at each penalty. Each group is predicted by a fit without this group.
+    /// Squared error, averaged over samples: one row per penalty, one column per target. Each group is predicted by a fit to the other groups.
     pub(in crate::estimators::ridge) fn groups(
         &self,
         groups: &[Vec<usize>],
@@ -87,7 +87,7 @@ impl LeaveOut<'_> {
     }
 }
 
-/// Diagonal block of size `size` of the centring matrix I − 11ᵀ/n.
+/// Diagonal block with `size` rows of the centring matrix I − 11ᵀ/n, where n is the number of `samples`.
 fn centring(size: usize, samples: usize) -> Mat<f64> {
     Mat::from_fn(size, size, |row, column| {
         let identity = if row == column { 1.0 } else { 0.0 };
@@ -95,7 +95,7 @@ fn centring(size: usize, samples: usize) -> Mat<f64> {
     })
 }
 
-/// Solves a system with a positive definite matrix; `None` if the matrix is numerically singular, as for very weak penalties.
+/// Solves `matrix` × x = `right`. `None` if `matrix` is not numerically positive definite, as for very weak penalties.
 fn solve(mut matrix: Mat<f64>, mut right: Mat<f64>) -> Option<Mat<f64>> {
     let size = matrix.nrows();
     let scratch = cholesky_in_place_scratch::<f64>(size, Par::Seq, Default::default())

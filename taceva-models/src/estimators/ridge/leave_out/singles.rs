@@ -1,4 +1,4 @@
-//! Leave-one-out errors: every group is one sample, and samples are processed in blocks.
+//! Leave-one-out errors of ridge regression: each sample is left out alone. Blocks of samples are processed in parallel.
 
 use faer::Mat;
 use rayon::prelude::*;
@@ -15,12 +15,12 @@ const BLOCK: usize = 256;
 /// Factors λ / (σ² + λ) for every eigenvalue σ² and penalty λ, and their products with the rotated targets.
 struct Shrunk {
     shrinkage: Mat<f64>,
-    /// Products, with one column per penalty and channel. Channels of one penalty are adjacent.
+    /// Products of the factors with the rotated targets. One column per penalty and channel; channels of one penalty are adjacent.
     coefficients: Mat<f64>,
 }
 
 impl LeaveOut<'_> {
-    /// Mean squared error of each target at each penalty. Each sample is predicted by a fit without this sample.
+    /// Squared error, averaged over samples: one row per penalty, one column per target. Each sample is predicted by a fit to the other samples.
     pub(in crate::estimators::ridge) fn singles(
         &self,
         penalties: &[f64],
@@ -54,7 +54,7 @@ impl LeaveOut<'_> {
         Ok(errors.chunks_exact(channels).map(<[f64]>::to_vec).collect())
     }
 
-    /// Summed squared errors of the samples of `block`, one value per penalty and channel.
+    /// Squared leave-out errors, summed over the samples of `block`: one value per penalty and channel.
     fn squares(&self, block: &[usize], shrunk: &Shrunk) -> Vec<f64> {
         let channels = self.targets.ncols();
         let vectors = rows(&self.vectors, block);
