@@ -29,7 +29,7 @@ pub enum SettingError {
         /// Suggested keys.
         suggestion: Suggestion,
     },
-    /// A value is not accepted by its key.
+    /// The value of a key is not accepted.
     #[error("`{key}={found}`: expected {accepts}", found = taceva_core::shown(found))]
     Value {
         /// The key.
