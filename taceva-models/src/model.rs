@@ -24,8 +24,8 @@ use crate::training::regressor::{ClassProbabilities, ModelRegressor};
 
 /// Fitted model that predicts channels, in their units, from pixels or signals.
 ///
-/// If every step after the extraction is linear, then scaling, principal components and weights are stored as one set of weights. A network's preprocessing is
-/// stored with its weights.
+/// If all steps from features to predictions are linear, scaling, principal components and weights are stored as one set of weights. A network's
+/// preprocessing is stored with its weights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     pub(crate) card: ModelCard,

@@ -105,7 +105,7 @@ impl FrameWindow {
         2 * self.frames as usize - 1
     }
 
-    /// True if the numbers are in the range of the settings and there are several frames.
+    /// True if the window has several frames, and the number of frames and the stride are in range.
     pub(super) fn is_valid(self) -> bool {
         (2..=FrameWindow::FRAMES_MAX).contains(&self.frames)
             && (1..=FrameWindow::STRIDE_MAX).contains(&self.stride)

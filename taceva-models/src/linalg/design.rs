@@ -51,7 +51,7 @@ impl FeatureScale {
 pub(crate) struct Design<'a> {
     features: &'a Features,
     centre: Vec<f64>,
-    /// Factor of each centred feature; `None` if all factors are 1.
+    /// Factor that multiplies each centred feature; `None` if all factors are 1.
     factor: Option<Vec<f64>>,
 }
 

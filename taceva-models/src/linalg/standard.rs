@@ -5,7 +5,7 @@ use taceva_core::{Features, ModelError, single};
 use crate::linalg::invalid;
 use crate::linalg::{Design, FeatureScale};
 
-/// Standardisation (feature − centre) · factor, rounded to single precision.
+/// Standardises features to (feature − centre) · factor, rounded to single precision.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Standard {
     centre: Vec<f64>,

@@ -9,7 +9,7 @@ use super::Suggestion;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SettingError {
-    /// A word has no `=`.
+    /// A setting has no `=`.
     #[error("`{word}`: expected key=value", word = taceva_core::shown(word))]
     Form {
         /// Word as typed.

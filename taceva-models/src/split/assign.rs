@@ -85,8 +85,8 @@ impl SplitSpec {
     /// ```
     ///
     /// # Errors
-    /// [`SplitError`] if `input` lacks the required columns, if the split has several folds, or if the training or test part is empty although it has
-    /// a share. The validation part may be empty if parts are named or there are several sections.
+    /// [`SplitError`] if `input` lacks the required columns, if the split has several folds, or if an empty training or test part should have
+    /// samples. The validation part may be empty if parts are named or there are several sections.
     pub fn assign(&self, input: &SplitInput<'_>, seed: u64) -> Result<Split, SplitError> {
         input.check()?;
         let split = match &self.kind {

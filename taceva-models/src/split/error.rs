@@ -16,7 +16,7 @@ pub enum SplitError {
         /// Suggested splits.
         suggestion: Suggestion,
     },
-    /// The text that assigns values of a column to parts has the wrong format.
+    /// The text that lists column values or recordings for each part has the wrong format.
     #[error(
         "`{found}`: expected by-column:NAME, by-column:NAME=train:1,2;val:3;test:4 or by-recording=train:a,b;test:c, with train and test", found = taceva_core::shown(found)
     )]
@@ -110,7 +110,7 @@ pub enum SplitError {
         /// Row, counted from 0.
         row: usize,
     },
-    /// The recording has no column of this name.
+    /// The recording has no column of the given name.
     #[error("split by-column: no column `{name}`, {suggestion}", name = taceva_core::shown(name))]
     NoColumn {
         /// Name that was given.
@@ -118,7 +118,7 @@ pub enum SplitError {
         /// Suggested columns.
         suggestion: Suggestion,
     },
-    /// No sample has this value.
+    /// No sample has the given value in the column.
     #[error("split by-column: no sample has `{column}` = `{value}`, {suggestion}", column = taceva_core::shown(column), value = taceva_core::shown(value))]
     NoValue {
         /// Name of the column.
@@ -134,7 +134,7 @@ pub enum SplitError {
         /// Name of the split.
         split: &'static str,
     },
-    /// No recording has this name.
+    /// No recording has the given name.
     #[error("split by-recording: no recording is called `{name}`, {suggestion}", name = taceva_core::shown(name))]
     NoRecording {
         /// Name that was given.
