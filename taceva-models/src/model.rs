@@ -24,8 +24,8 @@ use crate::training::regressor::{ClassProbabilities, ModelRegressor};
 
 /// Fitted model that predicts channels, in their units, from pixels or signals.
 ///
-/// If every step after the extraction is linear, then scaling, principal components and weights are stored as one set of weights. A network's preprocessing is
-/// stored with its weights.
+/// If all steps from features to predictions are linear, scaling, principal components and weights are stored as one set of weights. A network's
+/// preprocessing is stored with its weights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     pub(crate) card: ModelCard,
@@ -70,7 +70,7 @@ impl Model {
         Model::fit_learnt(input, angles, asked, progress)
     }
 
-    /// Fits the learnt channels of `input`. `asked` contains the predicted channels.
+    /// Fits the channels that the estimator learns, with sine and cosine in place of angles. `asked` contains the channels that the model predicts.
     fn fit_learnt(
         input: FitInput<'_>,
         angles: Vec<AngleCard>,
@@ -151,14 +151,14 @@ impl Model {
         &self.card
     }
 
-    /// Records in the card the choice of features.
+    /// Records in the model card how the features were chosen.
     #[must_use]
     pub fn with_features_chosen(mut self, how: FeatureChoice) -> Model {
         self.card.feature_choice = Some(how);
         self
     }
 
-    /// Records in the card the validation of models fitted in the same way.
+    /// Records in the model card the cross-validation of models fitted in the same way.
     #[must_use]
     pub fn with_validation(mut self, validation: ValidationCard) -> Model {
         self.card.provenance.validation = Some(validation);
@@ -179,7 +179,8 @@ impl Model {
         means.chain(angles.map(|angle| (angle.name.as_str(), angle.mean)))
     }
 
-    /// Regressor that predicts the learnt channels, from features of pixels or from signals divided by their spread.
+    /// Regressor that predicts the learnt channels, with sine and cosine in place of angles. Reads features of pixels, or signals divided by their
+    /// spread.
     pub fn regressor(&self) -> &ModelRegressor {
         &self.regressor
     }
@@ -197,8 +198,7 @@ impl Model {
     /// Builds the extractor of this model's features for frames or signals of `info`.
     ///
     /// # Errors
-    /// [`FeatureError`] for frames of another kind or signals of another grid than the frames or signals of the model, without a needed
-    /// `reference`, and for a model that reads windows of frames.
+    /// [`FeatureError`] if `info` differs from the training data, if a needed `reference` is missing, or if the model reads windows of frames.
     pub fn extractor(
         &self,
         info: impl Into<InputInfo>,
@@ -213,7 +213,7 @@ impl Model {
     /// Builds the extractor of the features of each frame, also for a model that reads windows of frames.
     ///
     /// # Errors
-    /// Errors of [`extractor`](Model::extractor), except for windows.
+    /// Errors of [`extractor`](Model::extractor), except the error for windows.
     pub fn frame_extractor(
         &self,
         info: impl Into<InputInfo>,
@@ -235,7 +235,7 @@ impl Model {
     /// # Units
     /// Predictions have the units of the channels.
     /// # Errors
-    /// [`ModelError`] if the shape of the features differs, or a prediction is not finite.
+    /// [`ModelError`] if the shape of `features` differs from the model's, or a prediction is not finite.
     pub fn predict(&self, features: &Features) -> Result<Vec<f64>, ModelError> {
         let mut predictions = self.predict_unbounded(features)?;
         self.label_bounds().bound(&mut predictions);
@@ -259,7 +259,7 @@ impl Model {
         })
     }
 
-    /// Predicts the learnt channels for every sample of `features`.
+    /// Predicts the learnt channels, with sine and cosine in place of angles, for every sample of `features`.
     fn learnt(&self, features: &Features) -> Result<Vec<f64>, ModelError> {
         let mut predictions = vec![0.0; features.samples() * self.channels.learnt.len()];
         self.regressor.predict(features, &mut predictions)?;
@@ -273,10 +273,10 @@ impl Model {
         self.distance.as_ref()
     }
 
-    /// [Distance](FeatureDistance) of every sample of `features`, with 1 at the limit; `None` if the model has no distance.
+    /// [Distance](FeatureDistance) of every sample of `features`, where 1 is the limit; `None` if the model has no distance.
     ///
     /// # Errors
-    /// [`ModelError`] if the shape of the features differs.
+    /// [`ModelError`] if the shape of `features` differs from the model's.
     pub fn distances(&self, features: &Features) -> Result<Option<Vec<f64>>, ModelError> {
         let Some(distance) = &self.distance else {
             return Ok(None);
@@ -292,7 +292,7 @@ impl Model {
     /// # Units
     /// Deviations have the units of the channels.
     /// # Errors
-    /// [`ModelError`] if the shape of the features differs.
+    /// [`ModelError`] if the shape of `features` differs from the model's.
     pub fn deviations(&self, features: &Features) -> Result<Option<Vec<f64>>, ModelError> {
         let even = self.even(features)?;
         let features = even.as_ref().unwrap_or(features);
@@ -308,7 +308,7 @@ impl Model {
     /// Probabilities of the classes of the only channel, for every sample of `features`; `None` if the model does not estimate them.
     ///
     /// # Errors
-    /// [`ModelError`] if the shape of the features differs.
+    /// [`ModelError`] if the shape of `features` differs from the model's.
     pub fn probabilities(
         &self,
         features: &Features,
@@ -333,13 +333,13 @@ impl Model {
     }
 }
 
-/// Returns the training set with `features` instead of its own, if given.
+/// Replaces the features of the training set by `features`, if given.
 fn with_features<'s>(mut set: TrainingSet<'s>, features: Option<&'s Features>) -> TrainingSet<'s> {
     set.features = features.unwrap_or(set.features);
     set
 }
 
-/// Learnt channels of a card. The card's angles give the predicted channels.
+/// Learnt channels of the model of a card. Learnt sines and cosines belong to the angles that the card lists.
 pub(crate) fn learnt_channels_of(
     card: &ModelCard,
     learnt: &Channels,

@@ -36,7 +36,7 @@ impl Models {
         Models::default()
     }
 
-    /// Adds the plugin models `offered` under their keys. Keys contain a `/`; names of built-in models do not.
+    /// Adds plugin models, which are found by their keys. Keys contain a `/`; names of built-in models do not.
     #[must_use]
     pub fn with(mut self, offered: impl IntoIterator<Item = Arc<dyn EstimatorFactory>>) -> Models {
         let named = offered.into_iter();
@@ -45,7 +45,7 @@ impl Models {
         self
     }
 
-    /// Adds library models. `auto` then also tries these models, and their files can be read.
+    /// Adds library models. `auto` then also tries these models, and their model files can be read.
     #[must_use]
     pub fn with_libraries(
         mut self,
@@ -55,7 +55,7 @@ impl Models {
         self
     }
 
-    /// All compiled models. The simplest model comes first, and library models come last.
+    /// Built-in models, the simplest first, and then library models.
     pub fn compiled(&self) -> impl Iterator<Item = &'static ModelInfo> + '_ {
         let of_libraries = self.libraries.iter().map(|model| &model.info);
         ALL.iter().chain(of_libraries)
@@ -84,7 +84,7 @@ impl Models {
         })
     }
 
-    /// Resolves `name`, which is a model or a [`Preset`], and its settings. Settings in `given` override the settings of the preset.
+    /// Finds the model or [`Preset`] `name`, and returns the model with its settings. Settings in `given` override the settings of the preset.
     ///
     /// ```
     /// use taceva_models::{Models, ModelSettings};
@@ -173,7 +173,7 @@ impl ChosenModel {
         own.unwrap_or_default()
     }
 
-    /// Default finer features: the features of networks for an automatic choice; `None` for any other model.
+    /// Default features on a finer grid, which only the model `auto` has; `None` for any other model.
     pub fn closer_features(&self) -> Option<FeatureSpec> {
         match self {
             ChosenModel::Auto(_) => Auto::CLOSER,
@@ -220,7 +220,7 @@ impl From<&'static ModelInfo> for ChosenModel {
     }
 }
 
-/// Formats the identity of the model: its name, with its release for a library and its build for a plugin.
+/// Formats the name of the model, with the release of each library, or with the build of a plugin.
 impl fmt::Debug for ChosenModel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

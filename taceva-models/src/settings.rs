@@ -146,13 +146,13 @@ impl ModelSettings {
 }
 
 impl ModelSettings {
-    /// Value of [`SettingInfo::REFIT`].
+    /// Reads the setting [`SettingInfo::REFIT`], by default true.
     pub(crate) fn refit(&self) -> Result<bool, SettingError> {
         self.value(&SettingInfo::REFIT, true, |text| text.parse().ok())
     }
 }
 
-/// Parses a number within `range`; `None` for any other text.
+/// Parses a number within `range`; `None` if `text` is no such number.
 pub(crate) fn number<T: FromStr + PartialOrd>(
     text: &str,
     range: impl std::ops::RangeBounds<T>,

@@ -16,11 +16,10 @@ pub struct Pca {
 }
 
 impl Pca {
-    /// Computes the first `count` components of `training`. The largest entry of each component is positive.
+    /// Computes the first `count` components of `training`. The entry of greatest magnitude in each component is positive.
     ///
     /// # Errors
-    /// [`ModelError`] if a feature is not finite, if `training` varies in fewer than `count` directions, or if
-    /// `progress` was cancelled.
+    /// [`ModelError`] if a feature is not finite, if `training` varies in fewer than `count` directions, or if `progress` was cancelled.
     pub fn fit(
         training: &Features,
         count: usize,
@@ -41,7 +40,7 @@ impl Pca {
     /// Computes the first `most` components of `training`, or all if there are fewer.
     ///
     /// # Errors
-    /// Errors of [`fit`](Pca::fit), except for the number of directions.
+    /// Errors of [`fit`](Pca::fit), but fewer directions than `most` are no error.
     pub(crate) fn up_to(
         most: usize,
         training: &Features,
@@ -81,7 +80,7 @@ impl Pca {
         })
     }
 
-    /// Builds components from stored numbers.
+    /// Builds principal components from stored means, components and variance ratios.
     ///
     /// # Errors
     /// [`ModelError`] if a length is wrong or a number is not finite.
@@ -120,7 +119,7 @@ impl Pca {
         self.components.chunks_exact(self.mean.len())
     }
 
-    /// Share of the variance along each component.
+    /// Share of the total variance of the training part along each component.
     pub fn variance_ratio(&self) -> &[f64] {
         &self.variance_ratio
     }
@@ -154,7 +153,8 @@ impl Pca {
     }
 }
 
-/// Orthonormalises by the Gram–Schmidt method, applied twice. Products through the Gram matrix lose half the digits of the smallest components.
+/// Orthonormalises the columns of `vectors` by the Gram–Schmidt method, applied twice. The columns of smallest variance need this, because a Gram
+/// matrix keeps only half of their digits.
 fn orthonormalise(vectors: &mut Mat<f64>) {
     for column in 0..vectors.ncols() {
         let mut own = vectors.col_as_slice(column).to_vec();

@@ -1,4 +1,4 @@
-//! Area averages of pixels, exact up to one rounding, and the averages' differences from a reference.
+//! Mean of the pixels of each cell, rounded once, or the difference of this mean from the mean in a reference frame.
 
 use taceva_core::{Frame, FrameInfo, PixelFormat, single};
 
@@ -15,7 +15,7 @@ pub(super) fn mixes(color: Color, format: PixelFormat) -> bool {
     color == Color::Gray && format.samples() == 3
 }
 
-/// Area averages of cells. Sums are integers until one final division, so a feature is the exact average rounded once.
+/// Features that are the mean pixel value of each cell. Sums are integers until one final division, so a feature is the exact average rounded once.
 #[derive(Debug)]
 pub(super) struct Pixels {
     color: Color,
@@ -67,7 +67,7 @@ impl CellFeatures for Pixels {
         self.color.depth()
     }
 
-    /// Writes values with full scale 1; differences are in −1..1.
+    /// Writes one value per cell and colour, with full scale 1. Differences from the reference are in −1..1.
     fn write(&self, frame: &Frame, into: &mut [f32]) {
         let full_scale = self.full_scale();
         let mut places = into.iter_mut().enumerate();
@@ -79,12 +79,13 @@ impl CellFeatures for Pixels {
     }
 }
 
-/// Converts the sum of a cell to a signed number. The sum is below 2^48 for 65,535 rows and columns of 16 bits. Frames in memory have fewer than 2^32 columns.
+/// Converts the sum of a cell to a signed number. The sum is below 2^48 for a cell of 65,535 × 65,535 pixels of 16 bits. Frames in memory have fewer
+/// than 2^32 columns.
 pub(super) fn signed(sum: u64) -> i64 {
     i64::try_from(sum).expect("a cell of a frame in memory sums to less than 2^63")
 }
 
-/// Divides `sum` by `full_scale` and rounds to a feature.
+/// Divides `sum` by `full_scale` and rounds the quotient to single precision.
 pub(super) fn ratio(sum: i64, full_scale: i64) -> f32 {
     single(sum as f64 / full_scale as f64)
 }

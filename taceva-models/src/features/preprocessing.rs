@@ -6,14 +6,15 @@ use taceva_core::{FeatureShape, single, whole_size};
 
 /// Preprocessing applied to each picture.
 ///
-/// If markers are the signal, slow changes of light within or between pictures contain little information on the touch. Preprocessing therefore removes them. A
-/// sensor whose colour is its signal needs these changes, and should be used without preprocessing.
+/// Preprocessing removes slow changes of brightness within a picture and between pictures. For a sensor with markers, these changes contain little
+/// information on the contact. A sensor that shows contact by colour needs them, and should be used without preprocessing.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Preprocessing {
-    /// Standard deviation, in pixels, of the Gaussian whose weighted mean is subtracted around each pixel. For 0, nothing is subtracted.
+    /// Standard deviation of a Gaussian, in pixels. The mean of a pixel's surroundings, weighted by this Gaussian, is subtracted from the pixel; 0
+    /// subtracts nothing.
     pub local_mean_px: f64,
-    /// True to divide each picture by its standard deviation. All pixels of a uniform picture become 0.
+    /// True to subtract the mean of each picture and divide by its standard deviation. All pixels of a uniform picture become 0.
     pub contrast: bool,
 }
 
@@ -46,7 +47,7 @@ impl Preprocessing {
         changed
     }
 
-    /// Weights of the neighbours of a pixel at distances 0, 1, …; `None` if no local mean is subtracted.
+    /// Weights of the Gaussian at distances of 0, 1, … pixels; `None` if no local mean is subtracted.
     fn kernel(&self) -> Option<Vec<f64>> {
         let sigma = self.local_mean_px;
         (sigma > 0.0).then(|| {

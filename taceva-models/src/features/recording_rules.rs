@@ -1,24 +1,24 @@
-//! Feature settings that depend on the frames of a recording. They give at most one cell per pixel, colour if available, and the difference from a contact-free
-//! frame.
+//! Feature settings that depend on the frames of a recording. The grid is no finer than the pixels. Colour is used if frames have it, and a
+//! contact-free frame is subtracted if there is one.
 
 use taceva_core::FrameInfo;
 
 use super::spec::{COLOR, Color, DIFFERENCE, FeatureSpec, SIZE, size};
 use crate::settings::{ModelSettings, SettingError};
 
-/// Value of the colour setting that selects the colour of the frames.
+/// Value of the colour setting that uses colour if the frames have colour, and otherwise gray.
 const BY_FRAME: &str = "auto";
 
 /// Value of the difference setting that subtracts the reference frame from colour frames.
 const IN_COLOR: &str = "in-color";
 
-/// Prefix of a size that the pixels of a frame limit.
+/// Prefix of a grid size that the frame size limits to one cell per pixel.
 const UP_TO: &str = "up-to-";
 
 /// Feature settings that depend on the frames of a recording.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FeaturesByRecording {
-    /// Largest grid, further limited by the frame size; `None` if the grid does not depend on frames.
+    /// Columns and rows of the largest grid, which the frame size limits further; `None` if the grid does not depend on frames.
     most: Option<(u32, u32)>,
     /// True to use colour if frames have colour.
     color: bool,
@@ -77,7 +77,7 @@ impl FeaturesByRecording {
         Ok((open, rest))
     }
 
-    /// Adapts the rules to the finer grid of `closer`. Settings without a value from the user also depend on the frames.
+    /// Adapts the rules to the finer grid of `closer`. If the user set no size, colour or difference, this setting also depends on the frames.
     #[must_use]
     pub fn closer(self, closer: FeatureSpec, settings: &ModelSettings) -> FeaturesByRecording {
         let is_set = |key: &str| settings.get(key).is_some();

@@ -7,8 +7,9 @@ use super::error::FeatureError;
 
 /// Reduces frames of one kind to a coarser grid of 8-bit pixels.
 ///
-/// A reduced pixel is the mean of its area. Source pixels at the rim are weighted by their overlap, as in features of the same grid. The mean is rounded once,
-/// half up, to a step of full scale / 255, which is 257 levels of 16 bits. Features of a model therefore change by at most half a step.
+/// A reduced pixel is the mean of its area. Source pixels at the rim are weighted by their overlap, as in features of the same grid. The mean is
+/// rounded once, half up, to a multiple of full scale / 255. For 16-bit pixels, this step is 257 levels. Rounding changes features of the same grid
+/// by at most half a step.
 ///
 /// ```
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};

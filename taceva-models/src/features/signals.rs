@@ -5,7 +5,7 @@ use taceva_core::{FeatureShape, Features, SignalInfo, Signals, single};
 use super::error::FeatureError;
 use super::spec::FeatureSpec;
 
-/// Features of signals of one grid.
+/// Features that are the values of a grid of taxels.
 #[derive(Clone, Debug)]
 pub(super) struct Taxels {
     info: SignalInfo,
@@ -50,10 +50,10 @@ impl Taxels {
     }
 }
 
-/// Spread of each channel over `training`, rounded to a power of two. Values divided by the spread are about 1 and lose no bit. A model that scales features
-/// itself is therefore unaffected.
+/// Spread of each channel over the samples of `training`, rounded to a power of two. Values divided by the spread are near 1, and the division is
+/// exact. A model that scales features itself is therefore unaffected.
 ///
-/// The spread is the root mean square over taxels of the standard deviation of a channel. It is 1 if no value varies.
+/// A channel's spread is the root mean square of the standard deviations at each taxel, or 1 if no value varies.
 ///
 /// # Shapes
 /// `[depth]` of the features.

@@ -8,8 +8,8 @@ use super::spec::{COLOR, FeatureSpec, INPUT, KINDS, SIZE};
 use crate::settings::ModelSettings;
 
 impl FeatureSpec {
-    /// Adapts these features to a recording. Uses signals if they are requested or the recording has no frames. `settings` are the argument of
-    /// [`changed_by`](FeatureSpec::changed_by).
+    /// Adapts these features to a recording. Uses signals if they are requested or the recording has no frames. `settings` are the settings that
+    /// [`changed_by`](FeatureSpec::changed_by) already applied.
     ///
     /// ```
     /// use taceva_core::{SignalInfo, Unit};

@@ -41,7 +41,7 @@ impl Color {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FeatureSpec {
-    /// Kinds of features of every cell. A model file without this entry has pixels.
+    /// Kinds of features computed for every cell. A model file without this entry uses pixels.
     #[serde(default, skip_serializing_if = "FeatureKinds::are_pixels")]
     pub kinds: FeatureKinds,
     /// Number of columns of cells.
@@ -54,7 +54,7 @@ pub struct FeatureSpec {
     pub difference: bool,
     /// Number of principal components of the training part, which replace the values of the cells. `None` uses the values themselves.
     pub pca: Option<u32>,
-    /// Number of values per taxel of signals; `None` for frames, and for signals before the recording is known.
+    /// Number of values per taxel of signals; `None` for frames, and for signals until a recording states the number.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub channels: Option<u32>,
     /// Frames that one sample reads; `None` for its own frame only.
@@ -125,7 +125,7 @@ impl FeatureSpec {
         window: None,
     };
 
-    /// Settings in the registry.
+    /// Settings of features that the model registry lists.
     pub const SETTINGS: &'static [SettingInfo] = &{
         let [frames, stride] = FrameWindow::SETTINGS;
         [INPUT, KINDS, SIZE, COLOR, DIFFERENCE, PCA, frames, stride]
@@ -187,7 +187,7 @@ impl FeatureSpec {
         })
     }
 
-    /// Changes the kinds of features. If the kinds are not only pixels, uses the coarsest of their default grids.
+    /// Changes the kinds of features. Unless pixels are the only kind, the grid becomes the coarsest default grid of these kinds.
     fn with_kinds(self, kinds: FeatureKinds) -> FeatureSpec {
         let others = kinds.iter().filter(|_| !kinds.are_pixels());
         let side = others.map(FeatureKind::side).min();
@@ -199,7 +199,7 @@ impl FeatureSpec {
         }
     }
 
-    /// Features of signals of `info`: one cell per taxel. Ignores the requested grid.
+    /// Features that read the signals described by `info`, with one cell per taxel instead of the requested grid.
     #[must_use]
     pub fn of_signals(self, info: SignalInfo) -> FeatureSpec {
         FeatureSpec {

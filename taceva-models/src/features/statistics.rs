@@ -14,12 +14,12 @@ const QUANTILES: [usize; 5] = [5, 25, 50, 75, 95];
 /// Number of values per cell and colour: mean, standard deviation and quantiles.
 const NUMBERS: usize = 2 + QUANTILES.len();
 
-/// Statistics of each colour of each cell: mean, standard deviation (divided by n), and the quantiles of 5, 25, 50, 75 and 95 %. The quantile of q % is the
-/// nearest rank. It is the least pixel value that at least q % of the pixels do not exceed.
+/// Statistics of each colour in each cell: mean, population standard deviation, and the quantiles of 5, 25, 50, 75 and 95 %. The quantile of q % is
+/// the least pixel value that at least q % of the pixels do not exceed.
 ///
-/// Each pixel belongs to one cell. Cell i has columns `floor(i W / width) .. floor((i + 1) W / width)`, and rows likewise. Sums are integers, so every
-/// statistic depends only on the values of the cell's pixels, and not on their order. The statistics describe the distribution of light in a cell, but not
-/// positions. A press gives the same values anywhere in its cell.
+/// Each pixel belongs to one cell. With `width` cells across a frame of W columns, cell i has columns `floor(i W / width) .. floor((i + 1) W /
+/// width)`. Rows are divided likewise. Sums are integers, so every statistic depends only on the values of the cell's pixels, and not on their order.
+/// The statistics describe the distribution of light in a cell, but not positions. A press gives the same values anywhere in its cell.
 #[derive(Debug)]
 pub(super) struct Statistics {
     color: Color,
@@ -71,7 +71,7 @@ impl Statistics {
         numbers
     }
 
-    /// Integer values of each colour plane, pixel by pixel, and the value of white.
+    /// Integer value of every pixel and colour, pixel by pixel, and the full scale of these values.
     fn values(&self, frame: &Frame) -> (Vec<u32>, f64) {
         let full_scale = f64::from(self.info.format.full_scale());
         let samples = frame.samples().map(u32::from);

@@ -31,7 +31,7 @@ pub(super) struct Gel {
 impl Gel {
     pub(super) const WIDTH: u32 = 160;
     pub(super) const HEIGHT: u32 = 120;
-    /// Contrast of markers at the left edge, in 8-bit levels. It increases to the right.
+    /// Contrast of markers at the left edge, in 8-bit levels. The contrast increases to the right.
     pub(super) const CONTRAST: f64 = 100.0;
     /// Spacing of markers, in pixels.
     pub(super) const SPACING: f64 = 12.0;

@@ -34,13 +34,13 @@ const STRIDE: SettingInfo = SettingInfo {
 };
 
 impl FrameWindow {
-    /// Settings in the registry.
+    /// Settings of a window that the model registry lists.
     pub(super) const SETTINGS: [SettingInfo; 2] = [FRAMES, STRIDE];
 
     /// Greatest number of frames.
     pub const FRAMES_MAX: u32 = 64;
 
-    /// Greatest distance between two frames.
+    /// Greatest stride: the number of frames between consecutive frames of a window.
     pub const STRIDE_MAX: u32 = 1000;
 
     /// Window of `frames` frames, each `stride` frames after the previous frame; `None` for a single frame and for numbers out of range.
@@ -49,7 +49,7 @@ impl FrameWindow {
         window.is_valid().then_some(window)
     }
 
-    /// Reads the window from `settings`; `default` for settings without a value.
+    /// Reads the window from `settings`. For a setting without a value, `default` gives the value.
     pub(super) fn changed_by(
         default: Option<FrameWindow>,
         settings: &ModelSettings,
@@ -74,14 +74,15 @@ impl FrameWindow {
         self.stride
     }
 
-    /// Positions in the sequence of the frames of the sample at `place`, newest first. The first frame replaces missing earlier frames.
+    /// Positions in the sequence of the frames that the sample at position `place` reads, newest first. The first frame replaces missing earlier
+    /// frames.
     pub fn places(self, place: usize) -> impl Iterator<Item = usize> {
         let back = move |frame: u32| frame as usize * self.stride as usize;
         (0..self.frames).map(move |frame| place.saturating_sub(back(frame)))
     }
 
-    /// Appends the features of a window to `into`. Each cell has its values in every frame, the newest first. The change of each frame from the
-    /// previous frame follows.
+    /// Appends the features of a window to `into`. For each cell, the values in every frame come first, the newest frame leading. The changes from
+    /// each frame to the next newer frame follow, the newest change first.
     ///
     /// # Shapes
     /// `frames`: the features of each frame, the newest first, each `[cells, depth]`.
@@ -99,12 +100,12 @@ impl FrameWindow {
         }
     }
 
-    /// Number of values of a window for each value of a frame.
+    /// Number of values that a window has for each value of a single frame.
     pub(super) fn values_per_value(self) -> usize {
         2 * self.frames as usize - 1
     }
 
-    /// True if the numbers are in the range of the settings and there are several frames.
+    /// True if the window has several frames, and the number of frames and the stride are in range.
     pub(super) fn is_valid(self) -> bool {
         (2..=FrameWindow::FRAMES_MAX).contains(&self.frames)
             && (1..=FrameWindow::STRIDE_MAX).contains(&self.stride)

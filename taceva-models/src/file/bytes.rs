@@ -1,4 +1,4 @@
-//! Models as bytes: the safetensors format with the card in the metadata.
+//! Models as bytes in the safetensors format, with the model card in the metadata.
 
 use std::collections::HashMap;
 

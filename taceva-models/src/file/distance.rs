@@ -1,4 +1,4 @@
-//! Training distance as tensors of a model file.
+//! Stores the distance of features from the training part as tensors of a model file.
 
 use crate::features::{DistanceLimits, FeatureDistance};
 use crate::training::file::content::Stored;
@@ -14,7 +14,7 @@ pub(super) fn distance_tensors(distance: &FeatureDistance) -> [Raw; 3] {
     ]
 }
 
-/// Reads the distance from a file if the card has its limits; `None` for older models without a distance.
+/// Reads the distance from a model file whose card states its limits; `None` for older models without a distance.
 pub(super) fn distance_from(stored: &Stored<'_>) -> Result<Option<FeatureDistance>, FormatError> {
     let (tensors, shape) = (&stored.tensors, stored.shape());
     let Some(card) = stored.card.distance else {
@@ -42,7 +42,7 @@ pub(super) fn distance_from(stored: &Stored<'_>) -> Result<Option<FeatureDistanc
     }
 }
 
-/// True if every number is finite and every divisor is positive.
+/// True if all numbers of `distance` are finite, and its deviations and limits are positive.
 fn is_sound(distance: &FeatureDistance) -> bool {
     let DistanceLimits { along, beside } = distance.limits;
     let is_divisor = |value: &f64| value.is_finite() && *value > 0.0;

@@ -32,8 +32,8 @@ impl Models {
     /// Reads a model from `bytes`. Models of a plugin are loaded by the plugin.
     ///
     /// # Errors
-    /// [`FormatError`] if the bytes differ from the format of [`to_bytes`](Model::to_bytes), or have another major version. Also if they belong to a plugin
-    /// that is missing or rejects them.
+    /// [`FormatError`] if the bytes differ from the format of [`to_bytes`](Model::to_bytes), or have another major version. The same error reports a
+    /// plugin that is missing or rejects the bytes.
     pub fn read(&self, bytes: &[u8]) -> Result<Model, FormatError> {
         check_sizes(bytes)?;
         let (_, header) = SafeTensors::read_metadata(bytes)?;

@@ -1,4 +1,4 @@
-//! Seal of a model file, over the card and a digest of each tensor.
+//! Seal of a model file: a digest over the card and over the digests of all tensors.
 
 use safetensors::tensor::{Dtype, SafeTensors};
 use sha2::{Digest as _, Sha256};
@@ -18,7 +18,7 @@ pub(super) fn digested(
     (format!("tensor {name}"), hasher.finalize().to_vec())
 }
 
-/// Adds a seal over card and tensors to the card.
+/// Returns `card` with a seal over the card and the digests of `tensors`.
 pub(super) fn seal_over(card: &str, tensors: &[(String, Vec<u8>)]) -> Result<String, FormatError> {
     let mut attached = attached(tensors);
     attached.sort_unstable();

@@ -24,7 +24,7 @@ pub(crate) enum FeatureScale {
 }
 
 impl FeatureScale {
-    /// Setting in the registry.
+    /// Setting `scale`, which selects the divisor of features.
     pub(crate) const SETTING: SettingInfo = SettingInfo {
         key: "scale",
         accepts: "none or unit",
@@ -51,7 +51,7 @@ impl FeatureScale {
 pub(crate) struct Design<'a> {
     features: &'a Features,
     centre: Vec<f64>,
-    /// Factor of each centred feature; `None` if all factors are 1.
+    /// Factor that multiplies each centred feature; `None` if all factors are 1.
     factor: Option<Vec<f64>>,
 }
 
@@ -125,7 +125,7 @@ impl<'a> Design<'a> {
         self.factor.as_deref()
     }
 
-    /// Transposed block of X, with one column per sample.
+    /// Transposed block of the design matrix, with one row per feature and one column per sample.
     pub(crate) fn block(&self, samples: Range<usize>, features: Range<usize>) -> Mat<f64> {
         let mut block = Mat::zeros(features.len(), samples.len());
         let centre = &self.centre[features.clone()];
@@ -144,7 +144,7 @@ impl<'a> Design<'a> {
         block
     }
 
-    /// Product X `right`.
+    /// Product of the design matrix and `right`.
     pub(crate) fn times(&self, right: MatRef<'_, f64>) -> Mat<f64> {
         stacked(self.samples(), right.ncols(), |samples, product| {
             for slab in slabs(self.width()) {
@@ -155,7 +155,7 @@ impl<'a> Design<'a> {
         })
     }
 
-    /// Product Xᵀ `right`.
+    /// Product of the transposed design matrix and `right`.
     pub(crate) fn transpose_times(&self, right: MatRef<'_, f64>) -> Mat<f64> {
         stacked(self.width(), right.ncols(), |features, product| {
             for slab in slabs(self.samples()) {
@@ -167,7 +167,7 @@ impl<'a> Design<'a> {
     }
 }
 
-/// Mean over samples of a function of each feature value and its index.
+/// Mean over samples of `of(value, index)`, for the feature at each index.
 fn mean_of(features: &Features, of: impl Fn(f64, usize) -> f64) -> Vec<f64> {
     let mut sums = vec![0.0; features.shape().len()];
     for sample in 0..features.samples() {
@@ -180,7 +180,7 @@ fn mean_of(features: &Features, of: impl Fn(f64, usize) -> f64) -> Vec<f64> {
     sums
 }
 
-/// Fills a matrix of `rows` × `columns` in parallel by blocks of rows.
+/// Builds a matrix of `rows` × `columns` from blocks of rows that `fill` computes in parallel.
 fn stacked(
     rows: usize,
     columns: usize,

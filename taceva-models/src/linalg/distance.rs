@@ -1,12 +1,12 @@
-//! Distances between samples, with the same bits on every machine, for one sample or for many.
+//! Distances between samples. The bits are the same on every machine, and for any number of samples at a time.
 
 use rayon::prelude::*;
 use taceva_core::single;
 
-/// Number of features summed in single precision before the sum is added in double precision.
+/// Number of features summed in single precision. The sums are added in double precision.
 const RUN: usize = 256;
 
-/// Number of partial sums of a run, so that additions do not wait for each other.
+/// Number of partial sums in single precision, so that additions do not wait for each other.
 const LANES: usize = 16;
 
 /// Sum of (a − b)² over the features of two samples of equal length.

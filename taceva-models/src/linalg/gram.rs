@@ -10,7 +10,7 @@ use taceva_core::{ModelError, Progress};
 use super::design::Design;
 use crate::linalg::progress::{ReportedStage, interrupted};
 
-/// Side of a tile, in rows or columns.
+/// Rows and columns of a tile of a Gram matrix.
 const TILE: usize = 256;
 
 /// Number of samples or features converted to 64 bits at a time.
@@ -28,7 +28,7 @@ pub(super) fn add_product(sums: &mut Mat<f64>, left: MatRef<'_, f64>, right: Mat
     matmul(sums, Accum::Add, left, right, 1.0, Par::Seq);
 }
 
-/// Ranges of samples or features that are summed in one step.
+/// Splits `length` samples or features into ranges that are summed in one step each.
 pub(super) fn slabs(length: usize) -> impl Iterator<Item = Range<usize>> {
     (0..length)
         .step_by(SLAB)
@@ -115,7 +115,7 @@ fn lower_tiles(size: usize) -> Vec<Tile> {
         .collect()
 }
 
-/// Adds the product of `slab` and its transpose to `tiles`.
+/// Adds the product of `slab` and its transpose to the sums of `tiles`.
 fn add_outer(tiles: &mut [Tile], slab: MatRef<'_, f64>) {
     tiles.par_iter_mut().for_each(|tile| {
         let left = slab.subrows(tile.row, tile.sums.nrows());

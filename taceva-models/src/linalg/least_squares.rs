@@ -39,13 +39,14 @@ pub(crate) struct Solution {
     pub(crate) plain: Vec<f64>,
 }
 
-/// Maximum number of refinement steps. Each step gains as many digits as the decomposition has.
+/// Maximum number of refinement steps. Each step adds as many correct digits as one solution in double precision has.
 const ROUNDS: usize = 40;
 
-/// Finds the x of least ‖y − A x‖ for each column y of `targets`.
+/// Finds the x of least ‖y − A x‖ for the matrix A and each column y of `targets`.
 ///
-/// The Householder decomposition of A, with columns scaled by powers of two, gives x and the residual r. Both are corrected by the residuals of the system r +
-/// A x = y, Aᵀr = 0. These residuals are computed in doubled precision, until corrections no longer shrink.
+/// The Householder decomposition of A, with columns scaled by powers of two, gives x and the residual r. Each refinement step computes the residuals
+/// of the system r + A x = y, Aᵀr = 0 in doubled precision. The decomposition then gives corrections of x and r. Refinement ends when corrections no
+/// longer shrink.
 ///
 /// # Reference
 /// Å. Björck, BIT 7 (1967) 257, 322.
@@ -124,7 +125,7 @@ fn solve(matrix: Wide<'_>, decomposition: &Householder, target: &[f64]) -> Solut
     }
 }
 
-/// Largest of `changes`, each relative to its weight.
+/// Greatest magnitude among `changes`, each relative to its weight.
 fn relative(changes: &[f64], weights: &[Double]) -> f64 {
     let of = |(change, weight): (&f64, &Double)| match weight.value().abs() {
         size if size > 0.0 => change.abs() / size,

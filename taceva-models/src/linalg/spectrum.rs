@@ -81,12 +81,12 @@ impl<'d, 'a> Spectrum<'d, 'a> {
         &self.eigenvalues
     }
 
-    /// Mean eigenvalue, which is the unit of strengths.
+    /// Mean eigenvalue. The penalty of a ridge regression is its strength times this value.
     pub(crate) fn mean_eigenvalue(&self) -> f64 {
         self.eigenvalues.iter().sum::<f64>() / self.eigenvalues.len() as f64
     }
 
-    /// Rounding error of an eigenvalue of 0. Smaller eigenvalues contain only noise.
+    /// Rounding error of an eigenvalue of 0. Eigenvalues below this error contain only noise.
     pub(crate) fn noise(&self) -> f64 {
         let largest = self.eigenvalues.last().copied().unwrap_or(0.0);
         largest * self.eigenvalues.len() as f64 * f64::EPSILON
@@ -97,7 +97,7 @@ impl<'d, 'a> Spectrum<'d, 'a> {
         self.side == Side::Samples
     }
 
-    /// Projects `targets`, one row per sample, onto the eigenvectors, for [`weights`](Spectrum::weights).
+    /// Projects `targets`, one row per sample, onto the eigenvectors. [`weights`](Spectrum::weights) takes multiples of these projections.
     pub(crate) fn rotate(&self, targets: MatRef<'_, f64>) -> Mat<f64> {
         match self.side {
             Side::Samples => multiply(self.vectors.transpose(), targets),
@@ -108,8 +108,8 @@ impl<'d, 'a> Spectrum<'d, 'a> {
         }
     }
 
-    /// Weights of features for each column of `coefficients`. With the coefficients rotated target / (eigenvalue + λ), the result is ridge regression with
-    /// penalty λ.
+    /// Feature weights for each column of `coefficients`. Coefficients of projection / (eigenvalue + λ) give ridge regression with penalty λ.
+    /// [`rotate`](Spectrum::rotate) computes the projections.
     pub(crate) fn weights(&self, coefficients: MatRef<'_, f64>) -> Mat<f64> {
         let combined = multiply(self.vectors.as_ref(), coefficients);
         match self.side {
@@ -118,8 +118,8 @@ impl<'d, 'a> Spectrum<'d, 'a> {
         }
     }
 
-    /// Matrix U with one row per sample and one column per eigenvalue. Columns for eigenvalues of [`noise`](Spectrum::noise) are zero, unless the
-    /// vectors [span the samples](Spectrum::spans_samples).
+    /// Left singular vectors, with one row per sample and one column per eigenvalue. Columns for eigenvalues within [`noise`](Spectrum::noise) are
+    /// zero, unless the vectors [span the samples](Spectrum::spans_samples).
     pub(crate) fn sample_vectors(&self) -> Mat<f64> {
         match self.side {
             Side::Samples => self.vectors.clone(),
@@ -137,7 +137,7 @@ impl<'d, 'a> Spectrum<'d, 'a> {
         }
     }
 
-    /// Columns of V for the `count` largest eigenvalues, the largest first.
+    /// Right singular vectors of the design matrix for the `count` largest eigenvalues, the largest first.
     pub(crate) fn leading_feature_vectors(&self, count: usize) -> Mat<f64> {
         let size = self.eigenvalues.len();
         let leading = Mat::from_fn(size, count, |row, column| {

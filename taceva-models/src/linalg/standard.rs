@@ -5,7 +5,7 @@ use taceva_core::{Features, ModelError, single};
 use crate::linalg::invalid;
 use crate::linalg::{Design, FeatureScale};
 
-/// Standardisation (feature − centre) · factor, rounded to single precision.
+/// Standardises features to (feature − centre) · factor, rounded to single precision.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Standard {
     centre: Vec<f64>,
@@ -13,7 +13,7 @@ pub(crate) struct Standard {
 }
 
 impl Standard {
-    /// Standardisation of `training`, which must not be empty.
+    /// Standardisation by the mean and the scale of `training`, which must not be empty.
     pub(crate) fn of(training: &Features, scale: FeatureScale) -> Standard {
         let design = Design::new(training, scale);
         let width = design.width();
@@ -25,7 +25,7 @@ impl Standard {
         }
     }
 
-    /// Builds the standardisation from stored numbers.
+    /// Builds the standardisation from a stored centre and factor of each feature.
     ///
     /// # Errors
     /// [`ModelError`] if a number is not finite, or the lengths differ.

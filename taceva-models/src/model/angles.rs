@@ -11,7 +11,7 @@ pub(crate) struct LearntChannels {
     pub(crate) asked: Channels,
     /// Channels that the estimator learns.
     pub(crate) learnt: Channels,
-    /// Source of each predicted channel among the learnt channels.
+    /// Position of each predicted channel, or of its sine and cosine, among the learnt channels.
     sources: Vec<LearntAs>,
 }
 
@@ -71,7 +71,7 @@ impl LearntChannels {
         })
     }
 
-    /// Labels of the learnt channels, computed from rows of labels of the predicted channels.
+    /// Converts labels of the predicted channels to labels of the learnt channels, one row per sample.
     pub(crate) fn labels(&self, values: &[f64]) -> Vec<f64> {
         let mut labels = Vec::new();
         for row in values.chunks_exact(self.asked.len()) {
@@ -96,7 +96,7 @@ impl LearntChannels {
         labels
     }
 
-    /// Predictions of the predicted channels, computed from rows of the learnt channels.
+    /// Converts values of the learnt channels to values of the predicted channels, one row per sample.
     pub(crate) fn answers(&self, learnt: &[f64]) -> Vec<f64> {
         let rows = learnt.chunks_exact(self.learnt.len());
         let answers = rows.flat_map(|row| {

@@ -1,4 +1,4 @@
-//! Bounds of predictions: the range of the training labels, extended by a quarter of it on either side.
+//! Bounds of predictions: the range of the training labels, extended by a quarter of the range on either side.
 
 use taceva_core::Targets;
 
@@ -28,7 +28,7 @@ pub struct LabelBounds(Vec<Option<ChannelBounds>>);
 struct ChannelBounds {
     least: f64,
     greatest: f64,
-    /// True if the labels vary.
+    /// True if the training labels of the channel vary.
     varies: bool,
 }
 
@@ -63,12 +63,12 @@ impl LabelBounds {
         LabelBounds(bounds.collect())
     }
 
-    /// Least and greatest prediction of the channel with index `position`, in the unit of the channel; `None` if unknown.
+    /// Lower and upper bound of predictions of the channel with index `position`, in the unit of the channel; `None` if unknown.
     pub fn of(&self, position: usize) -> Option<[f64; 2]> {
         self.0[position].map(|bounds| [bounds.least, bounds.greatest])
     }
 
-    /// True if the unclipped `prediction` exceeds the bounds of the channel with index `position`; `None` if the bounds are unknown.
+    /// True if the unclipped `prediction` is outside the bounds of the channel with index `position`; `None` if the bounds are unknown.
     ///
     /// Always false for a constant label.
     pub fn is_beyond(&self, position: usize, prediction: f64) -> Option<bool> {
@@ -76,7 +76,7 @@ impl LabelBounds {
         Some(bounds.varies && !(bounds.least..=bounds.greatest).contains(&prediction))
     }
 
-    /// Clips `predictions`, one row per sample, to their bounds.
+    /// Clips `predictions`, one row per sample, to the bounds of each channel.
     ///
     /// # Shapes
     /// `predictions`: `[samples, channels]`.

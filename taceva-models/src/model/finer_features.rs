@@ -6,7 +6,7 @@ use super::{FitInput, Model, with_features};
 use crate::features::FeatureSpec;
 use crate::linalg::invalid;
 
-/// Features of the samples of a fit on a finer grid.
+/// Features on a finer grid, for the samples of a fit.
 #[derive(Clone, Copy, Debug)]
 pub struct CloserFeatures<'a> {
     /// Specification of the features.
@@ -18,11 +18,11 @@ pub struct CloserFeatures<'a> {
 }
 
 impl Model {
-    /// Like [`fit`](Model::fit), with finer features for estimators that [look closer](crate::ModelEstimator::looks_closer). Chooses an estimator, and fits it
-    /// to its own features.
+    /// Chooses an estimator and fits it like [`fit`](Model::fit). An estimator that [looks closer](crate::ModelEstimator::looks_closer) gets the
+    /// features of `closer`, any other the features of `input`.
     ///
     /// # Errors
-    /// Errors of [`fit`](Model::fit). Also if only `input` or only `closer` has a validation part.
+    /// Errors of [`fit`](Model::fit), and [`ModelError`] if only one of `input` and `closer` has a validation part.
     pub fn fit_closer(
         input: FitInput<'_>,
         closer: CloserFeatures<'_>,

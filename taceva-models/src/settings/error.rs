@@ -9,7 +9,7 @@ use super::Suggestion;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SettingError {
-    /// A word has no `=`.
+    /// A setting has no `=`.
     #[error("`{word}`: expected key=value", word = taceva_core::shown(word))]
     Form {
         /// Word as typed.
@@ -29,7 +29,7 @@ pub enum SettingError {
         /// Suggested keys.
         suggestion: Suggestion,
     },
-    /// A value is not accepted by its key.
+    /// The value of a key is not accepted.
     #[error("`{key}={found}`: expected {accepts}", found = taceva_core::shown(found))]
     Value {
         /// The key.

@@ -12,7 +12,7 @@ use crate::settings::Suggestion;
 use taceva_core::random::SplitMix64;
 use taceva_core::{by_count, counted};
 
-/// Rows of each part, each ascending.
+/// Rows of the recording in each part, in ascending order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Split {
     /// Rows for training.
@@ -37,10 +37,10 @@ impl Split {
         }
     }
 
-    /// Converts this split of `rows`, ascending, to a split of a recording of `all` rows. All other rows are left out.
+    /// Converts a split of the ascending `rows` alone to a split of a recording of `all` rows. Rows of the recording outside `rows` are left out.
     ///
     /// # Panics
-    /// If the split refers to a row beyond `rows`.
+    /// If the split contains a position beyond the end of `rows`.
     #[must_use]
     pub fn among(mut self, rows: &[usize], all: usize) -> Split {
         for part in [
@@ -85,8 +85,8 @@ impl SplitSpec {
     /// ```
     ///
     /// # Errors
-    /// [`SplitError`] if `input` lacks the required columns, if the split has several folds, or if the training or test part is empty although it has
-    /// a share. The validation part may be empty if parts are named or there are several sections.
+    /// [`SplitError`] if `input` lacks the required columns, if the split has several folds, or if an empty training or test part should have
+    /// samples. The validation part may be empty if parts are named or there are several sections.
     pub fn assign(&self, input: &SplitInput<'_>, seed: u64) -> Result<Split, SplitError> {
         input.check()?;
         let split = match &self.kind {
@@ -137,7 +137,7 @@ impl SplitSpec {
         }
     }
 
-    /// Requested share of a part; 1 for every part if the parts are named.
+    /// Requested share of a part, 0..1. If the split or the recording names the parts, every share is 1.
     fn share_of(&self, part: Part) -> f64 {
         if self.kind == SplitKind::All {
             return if part == Part::Train { 1.0 } else { 0.0 };
@@ -156,7 +156,7 @@ impl SplitSpec {
     }
 }
 
-/// Sections of rows in order. The flag of a section is true if a recording begins there.
+/// Consecutive sections of the rows of `input`. The flag of a section is true if a recording begins there.
 fn sections<'a>(input: &'a SplitInput<'a>) -> impl Iterator<Item = (Range<usize>, bool)> + 'a {
     let starts = std::iter::once(0).chain(input.sections.iter().copied());
     let ends = input.sections.iter().copied().chain([input.rows]);
@@ -166,10 +166,11 @@ fn sections<'a>(input: &'a SplitInput<'a>) -> impl Iterator<Item = (Range<usize>
     })
 }
 
-/// Assigns whole clusters to parts at random. All clusters have equal weight, regardless of their number of rows. With one row per cluster, the
-/// result is the random split. Clusters are numbered by their first row, so the result does not depend on names.
+/// Assigns whole clusters to parts at random. All clusters have equal weight, regardless of their number of rows. With one row per cluster, this
+/// assigns single rows at random. Clusters are numbered by their first row, so the result does not depend on names.
 ///
-/// A cluster remains in the part of its first section. Random draws restart with each recording. Each recording is therefore divided as if it were alone.
+/// A cluster of several sections is assigned in its first section. Random draws restart with each recording. Each recording is therefore divided as
+/// if it were alone.
 fn by_cluster<N: Ord>(
     names: &[N],
     input: &SplitInput<'_>,
@@ -200,7 +201,7 @@ fn by_cluster<N: Ord>(
     ))
 }
 
-/// Parts of the `total` clusters of a section. A part may be empty if there are several sections.
+/// Part of each of the `total` clusters of a section, training first. A part may be empty if there are several sections.
 fn parts_of_section(
     total: usize,
     input: &SplitInput<'_>,
@@ -215,7 +216,7 @@ fn parts_of_section(
     }
 }
 
-/// Note on `count` of `all` samples that are in no part.
+/// Note that `count` of `all` samples are in no part, with the reason and a remedy.
 fn left_out(count: usize, all: usize, reason: &str, remedy: &str) -> String {
     format!(
         "{count} of {} {} left out: {reason}; {remedy}",
@@ -296,7 +297,7 @@ fn parts_in_order(
     Ok(in_order(counts))
 }
 
-/// Repeats each part as often as `counts` requires, training first.
+/// Repeats each part by its number in `counts`: training first, then validation, then test.
 fn in_order(counts: [usize; 3]) -> Vec<Part> {
     let counted = Part::ALL.into_iter().zip(counts);
     counted

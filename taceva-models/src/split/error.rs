@@ -16,7 +16,7 @@ pub enum SplitError {
         /// Suggested splits.
         suggestion: Suggestion,
     },
-    /// The text that assigns values of a column to parts has the wrong format.
+    /// The text that lists column values or recordings for each part has the wrong format.
     #[error(
         "`{found}`: expected by-column:NAME, by-column:NAME=train:1,2;val:3;test:4 or by-recording=train:a,b;test:c, with train and test", found = taceva_core::shown(found)
     )]
@@ -63,13 +63,13 @@ pub enum SplitError {
             by-column:NAME"
     )]
     NoBlocks,
-    /// The shares are invalid.
+    /// A share is negative or not finite, or the training share is 0.
     #[error("fractions {given:?}: expected numbers of at least 0, the first above 0")]
     Fractions {
         /// Shares as given.
         given: [f64; 3],
     },
-    /// A list is longer or shorter than the recording.
+    /// A list with one value per sample is longer or shorter than the recording.
     #[error("{what}: {found} values for {rows} samples")]
     Length {
         /// Name of the list.
@@ -79,7 +79,7 @@ pub enum SplitError {
         /// Number of samples.
         rows: usize,
     },
-    /// The number of samples or clusters is too small for one in each part.
+    /// There are too few samples or clusters to place one in each part.
     #[error(
         "{found} {what} are too few for one in each part{}",
         if *found == 0 { "; in a run, this means that no press touched the gel" } else { "" }
@@ -110,7 +110,7 @@ pub enum SplitError {
         /// Row, counted from 0.
         row: usize,
     },
-    /// The recording has no column of this name.
+    /// The recording has no column of the given name.
     #[error("split by-column: no column `{name}`, {suggestion}", name = taceva_core::shown(name))]
     NoColumn {
         /// Name that was given.
@@ -118,7 +118,7 @@ pub enum SplitError {
         /// Suggested columns.
         suggestion: Suggestion,
     },
-    /// No sample has this value.
+    /// No sample has the given value in the column.
     #[error("split by-column: no sample has `{column}` = `{value}`, {suggestion}", column = taceva_core::shown(column), value = taceva_core::shown(value))]
     NoValue {
         /// Name of the column.
@@ -134,7 +134,7 @@ pub enum SplitError {
         /// Name of the split.
         split: &'static str,
     },
-    /// No recording has this name.
+    /// No recording has the given name.
     #[error("split by-recording: no recording is called `{name}`, {suggestion}", name = taceva_core::shown(name))]
     NoRecording {
         /// Name that was given.
@@ -151,12 +151,12 @@ pub enum SplitError {
         /// Name of the split.
         split: String,
     },
-    /// Not every sample has a declared part.
+    /// The recording declares no part for some samples.
     #[error(
         "split declared: not every sample has a part; fill each cell of the column that `part` of `[ids]` names, or use another split"
     )]
     NoParts,
-    /// A declared part is invalid.
+    /// The recording declares a part by an unknown name.
     #[error("row {row}: part `{found}`, expected train, val, validation or test", found = taceva_core::shown(found))]
     Part {
         /// Row, counted from 0.

@@ -32,18 +32,19 @@ pub(super) struct Scale {
 const APART: f64 = 0.5;
 
 impl Scale {
-    /// Half width of the square for averaging, which is applied twice to detect a spot. The side of the square is a fifth of the spacing.
+    /// Half width, in pixels, of the averaging square, whose side is a fifth of the marker spacing. Spot detection averages twice over this square.
     fn near(self) -> usize {
         whole(0.1 * self.spacing_px)
     }
 
-    /// Half width of the square of surroundings, which is one spacing wide. The square ends between spots, because a cut spot would shift the position.
+    /// Half width, in pixels, of the square whose mean is the local background. The square is one marker spacing wide, so its edges cut no
+    /// neighbouring spots. A cut spot would shift the position.
     fn around(self) -> usize {
         whole(0.5 * self.spacing_px)
     }
 
-    /// Standard deviation of the response of [`spots`] for pixel noise of standard deviation 1. Includes both averages, but not the noise of the
-    /// surroundings.
+    /// Standard deviation of the response of [`spots`] to pixel noise of standard deviation 1. Includes both averages near the spot, but not the
+    /// noise of the background mean.
     pub(super) fn noise_gain(self) -> f32 {
         let side = (2 * self.near() + 1) as f32;
         (2.0 * side * side + 1.0) / (3.0 * side * side * side)
@@ -56,8 +57,9 @@ fn whole(pixels: f64) -> usize {
 
 /// Detects spots of `picture` with a contrast above `least`, highest contrast first.
 ///
-/// The response of a pixel is a tent-weighted local mean minus the mean of its surroundings. A spot is a maximum of the response within half a spacing. Its
-/// position is the vertex of the least-squares paraboloid through nine responses around the maximum. Spots at the edge of the frame are skipped.
+/// The response of a pixel is a tent-weighted local mean minus the mean of its surroundings, negated for dark spots. A spot is the greatest response
+/// within half a marker spacing. Its position is the vertex of a paraboloid fitted by least squares to nine responses around the maximum. Spots at
+/// the edge of the frame are skipped.
 pub(super) fn spots(picture: &Plane, scale: Scale, least: f32) -> Vec<Marker> {
     let response = response(picture, scale);
     let (width, height) = (picture.width, picture.height);
@@ -96,7 +98,7 @@ fn response(picture: &Plane, scale: Scale) -> Vec<f32> {
     pairs.map(|(near, around)| sign * (near - around)).collect()
 }
 
-/// True for a local maximum of the response. Of equal neighbours, only the first is a maximum.
+/// True if the response at index `place` is a maximum among its eight neighbours. Of equal neighbours, only the first in row order is a maximum.
 fn is_top(response: &[f32], width: usize, place: usize) -> bool {
     let own = response[place];
     let before = [
@@ -115,7 +117,7 @@ fn is_top(response: &[f32], width: usize, place: usize) -> bool {
         && after.iter().all(|&other| response[other] <= own)
 }
 
-/// Marker at the vertex of the paraboloid through the responses at `place` and `step` pixels to each side.
+/// Marker at the vertex of the paraboloid fitted to nine responses: at index `place` and `step` pixels to each side.
 fn marker(response: &[f32], width: usize, place: usize, step: usize) -> Marker {
     let at = |column: usize, row: usize| {
         f64::from(response[place + row * step * width + column * step - step * width - step])

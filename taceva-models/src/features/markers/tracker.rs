@@ -12,20 +12,21 @@ use crate::features::FeatureError;
 
 /// Number of neighbours that predict the position of a marker.
 const NEIGHBOURS: usize = 8;
-/// Number of seed markers.
+/// Largest number of markers at which a match to spots may start.
 const SEEDS: usize = 4;
-/// Largest displacement of a seed, in marker spacings.
+/// Largest displacement of a marker at which a match starts, in marker spacings.
 const SEED_REACH: f64 = 1.6;
-/// Cost of a displacement of one spacing, relative to an unseen marker. A regular grid moved by one spacing differs only at its rim. If the rim is also hidden,
-/// the match with less movement is chosen.
+/// Cost of a marker that moved by one spacing; an unseen marker costs 1. A regular grid moved by one spacing differs only at its rim. If the rim is
+/// also hidden, the match with less movement is chosen.
 const MOVEMENT: f64 = 0.02;
-/// Share of unseen markers up to which the first match is accepted without further trials.
+/// Share of unseen markers up to which a match is accepted without a trial of other starting markers.
 const ENOUGH: f64 = 0.03;
 
 /// A tracked marker.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tracked {
-    /// Displacement from the untouched gel to the right and down, in pixels. Interpolated from neighbours if the marker is unseen.
+    /// Displacement of the marker from its position on the untouched gel, right and down, in pixels. Interpolated from neighbours if the marker is
+    /// unseen.
     pub displacement_px: [f64; 2],
     /// True if the marker was found in the frame.
     pub is_seen: bool,
@@ -33,9 +34,9 @@ pub struct Tracked {
 
 /// Tracks the markers of an untouched gel in other frames.
 ///
-/// Markers may be dark or bright, on a square or hexagonal grid with gaps. The match starts at a marker that has hardly moved, and grows from neighbour to
-/// neighbour. Matched neighbours predict the search position, so a marker may move farther than the spacing. Several starting markers are tried, and the match
-/// with the most markers is used.
+/// Markers may be dark or bright, on a square or hexagonal grid with gaps. Matching of markers to detected spots starts at a marker that has hardly
+/// moved, and grows from neighbour to neighbour. Matched neighbours predict the search position, so a marker may move farther than the spacing.
+/// Several starting markers are tried, and the match of least cost is used. The cost counts unseen markers, and grows with displacements.
 ///
 /// ```
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};
@@ -135,8 +136,8 @@ impl MarkerTracker {
         best.tracked()
     }
 
-    /// Candidate seeds: pairs of a marker and a spot near it, the closest pair first. Contains only the few markers that are closest to a spot,
-    /// relative to their spacing.
+    /// Pairs of a marker and a nearby spot at which a match may start, the closest pair first. Only the markers closest to any spot, relative to
+    /// their own spacing, have pairs.
     fn beginnings(&self, found: &[[f64; 2]]) -> Vec<(usize, usize)> {
         let mut seeds: Vec<(f64, usize)> = Vec::new();
         for (own, place) in self.places.iter().enumerate() {

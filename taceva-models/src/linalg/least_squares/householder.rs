@@ -2,14 +2,15 @@
 
 use faer::Mat;
 
-/// Decomposition A D = Q R. D contains a power of two for each column, which brings the norm of the column near 1.
+/// Decomposition A D = Q R of a matrix A into an orthogonal Q and a triangular R. The diagonal matrix D scales each column of A by a power of two, to
+/// a norm near 1.
 #[derive(Clone, Debug)]
 pub(super) struct Householder {
-    /// Reflectors on and below the diagonal, R above the diagonal.
+    /// Reflectors of Q on and below the diagonal, entries of R above the diagonal.
     packed: Mat<f64>,
-    /// Diagonal of R.
+    /// Diagonal of the triangular factor R.
     diagonal: Vec<f64>,
-    /// Diagonal of D.
+    /// Powers of two that scale the columns: the diagonal of D.
     scale: Vec<f64>,
 }
 
@@ -54,7 +55,7 @@ impl Householder {
             .position(|value| value.abs() <= rounding)
     }
 
-    /// Solves r + A x = `upper` and Aᵀr = `lower` for x and r.
+    /// Solves r + A x = `upper` and Aᵀr = `lower` for x and r. A is the decomposed matrix.
     pub(super) fn solve(&self, upper: &[f64], lower: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let columns = self.diagonal.len();
         let scaled: Vec<f64> = lower.iter().zip(&self.scale).map(|(a, b)| a * b).collect();
@@ -81,7 +82,7 @@ impl Householder {
         &self.packed.col_as_slice(column)[column..]
     }
 
-    /// Solution R⁻¹ `values`.
+    /// Solves R z = `values` for z, with the triangular factor R.
     fn substitute(&self, values: &[f64]) -> Vec<f64> {
         let mut found = values[..self.diagonal.len()].to_vec();
         for column in (0..found.len()).rev() {
@@ -96,7 +97,7 @@ impl Householder {
         found
     }
 
-    /// Solution R⁻ᵀ `values`.
+    /// Solves Rᵀ z = `values` for z, with the triangular factor R.
     fn transpose_substitute(&self, values: &[f64]) -> Vec<f64> {
         let mut found: Vec<f64> = Vec::with_capacity(values.len());
         for (column, value) in values.iter().enumerate() {

@@ -5,7 +5,7 @@ use faer::Mat;
 use super::double::Double;
 use super::{Wide, least_squares};
 
-/// A data set: name, file, highest power of x if the model is a polynomial, and intercept.
+/// A data set: name, file, highest power of x if the model is a polynomial, and presence of an intercept.
 struct Set {
     name: &'static str,
     text: &'static str,
@@ -49,7 +49,8 @@ fn rows(text: &str) -> Vec<Vec<f64>> {
 }
 
 impl Set {
-    /// Design matrix with one row per sample and one column per coefficient. Powers are exact in two doubles.
+    /// Design matrix, its rounding errors, and targets. The matrix has one row per sample and one column per coefficient. Powers are exact in two
+    /// doubles.
     fn design(&self) -> (Mat<f64>, Mat<f64>, Mat<f64>) {
         let rows = rows(self.text);
         let entries: Vec<Vec<Double>> = rows
@@ -96,7 +97,7 @@ impl Set {
     }
 }
 
-/// Least number of correct digits of any coefficient.
+/// Number of correct digits of the least accurate coefficient, at most 17.
 fn digits(found: &[f64], exact: &[f64]) -> f64 {
     let of = |(found, exact): (&f64, &f64)| {
         let error = ((found - exact) / exact).abs();

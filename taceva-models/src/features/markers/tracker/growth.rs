@@ -4,7 +4,7 @@ use super::{MarkerTracker, Tracked};
 use crate::features::markers::local::{Moved, displacement};
 use crate::features::markers::spots::distance;
 
-/// Largest distance of a marker from its predicted position, in spacings. The value is below half, so that no spot matches two markers.
+/// Largest distance of a marker from its predicted position, in marker spacings. The value is below half, so that no spot matches two markers.
 const REACH: f64 = 0.4;
 
 /// Partial match of markers to spots.
@@ -26,7 +26,8 @@ impl<'a> Growth<'a> {
         }
     }
 
-    /// Matches `seed` with `spot`. Then repeatedly matches the marker with the most matched neighbours.
+    /// Matches `seed` with `spot`. Then repeatedly takes the marker with the most matched neighbours, and matches it with the spot at its predicted
+    /// position.
     pub(super) fn grow_from(&mut self, seed: usize, spot: usize) {
         let count = self.spot_of.len();
         let mut is_asked = vec![false; count];
@@ -55,7 +56,7 @@ impl<'a> Growth<'a> {
         self.mend();
     }
 
-    /// Removes matches that contradict their neighbours, and searches for these markers again.
+    /// Removes matches that contradict matches of neighbours. Then searches a spot for each unmatched marker.
     fn mend(&mut self) {
         for own in 0..self.spot_of.len() {
             let Some(spot) = self.spot_of[own] else {
@@ -79,12 +80,12 @@ impl<'a> Growth<'a> {
         }
     }
 
-    /// Number of unseen markers.
+    /// Number of markers without a matched spot.
     pub(super) fn unseen(&self) -> usize {
         self.spot_of.iter().filter(|spot| spot.is_none()).count()
     }
 
-    /// Cost of the match: number of unseen markers plus `movement` for each squared displacement in spacings.
+    /// Cost of the match: the number of unmatched markers, plus `movement` times the sum of squared displacements in spacings.
     pub(super) fn cost(&self, movement: f64) -> f64 {
         let moved = (0..self.spot_of.len()).filter_map(|own| {
             let [right, down] = self.moved(own)?.1;
@@ -112,7 +113,7 @@ impl<'a> Growth<'a> {
         (0..self.spot_of.len()).map(of).collect()
     }
 
-    /// Displacement of the marker `own`, predicted by seen neighbours, otherwise by all seen markers, otherwise 0.
+    /// Displacement of the marker `own`, in pixels, predicted from seen markers nearby or else from all seen markers; 0 if none is seen.
     fn displacement(&self, own: usize, all: &[Moved]) -> [f64; 2] {
         let place = self.tracker.places[own];
         let spacing_px = self.tracker.lattice.spacings_px[own];
@@ -129,7 +130,7 @@ impl<'a> Growth<'a> {
         (off <= self.reach(own)).then_some(spot)
     }
 
-    /// Predicted position of a marker; `None` if no neighbour is seen.
+    /// Predicted position of the marker `own`, in pixels; `None` if no marker nearby is seen.
     fn expected(&self, own: usize) -> Option<[f64; 2]> {
         let place = self.tracker.places[own];
         let spacing_px = self.tracker.lattice.spacings_px[own];
@@ -137,7 +138,7 @@ impl<'a> Growth<'a> {
         Some([place[0] + right, place[1] + down])
     }
 
-    /// Seen markers among the neighbours of `own` and their neighbours.
+    /// Seen markers among the neighbours of `own` and the neighbours of these neighbours.
     fn around(&self, own: usize) -> Vec<Moved> {
         let neighbours = &self.tracker.neighbours;
         let further = neighbours[own].iter().flat_map(|near| &neighbours[*near]);
