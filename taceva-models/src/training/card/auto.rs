@@ -49,14 +49,14 @@ pub struct AutoTrial {
 pub struct Untried {
     /// Name of the model.
     pub model: String,
-    /// Work of a trial on one fold, in seconds of the budget.
+    /// Estimated work of a trial on one fold, in seconds as for the budget; 0 for a classifier.
     pub cost_s: f64,
     /// Reason why the model was not tried.
     pub reason: String,
 }
 
 impl AutoCard {
-    /// Last trial of the chosen model; `None` if the record lacks the model.
+    /// Last trial of the chosen model; `None` if the record contains no such trial.
     pub fn best(&self) -> Option<&AutoTrial> {
         let mut trials = self.tried.iter();
         trials.rfind(|trial| trial.model == self.taken)
