@@ -30,7 +30,7 @@ impl Part {
         }
     }
 
-    /// Name of the part.
+    /// Name of the part: `train`, `validation` or `test`.
     pub const fn name(self) -> &'static str {
         match self {
             Part::Train => "train",

@@ -37,7 +37,7 @@ pub enum Foreign {
 }
 
 impl Checkpoints {
-    /// Default interval of 30 s. An interruption loses at most 30 s of work, and writing takes a small part of the training time.
+    /// Default interval of 30 s. An interruption loses about 30 s of work, and writing takes a small part of the training time.
     pub const EVERY: Duration = Duration::from_secs(30);
 
     /// Checkpoints at `path`, every [`EVERY`](Checkpoints::EVERY). A checkpoint of another training run is not overwritten.
@@ -60,8 +60,8 @@ impl Checkpoints {
         }
     }
 
-    /// Reads the checkpoint of the training run `identity`. `None` if there is no file, or if [`foreign`](Checkpoints::foreign) allows its
-    /// replacement.
+    /// Reads the checkpoint of the training run `identity`. `None` if there is no file, or if [`foreign`](Checkpoints::foreign) replaces an unusable
+    /// file.
     pub(crate) fn take(&self, identity: &Identity) -> Result<Option<Checkpoint>, CheckpointError> {
         let refuse = |problem: String| CheckpointError::Damaged {
             path: self.path.clone(),
@@ -122,7 +122,7 @@ impl<'a> Shelf<'a> {
         &self.checkpoints.path
     }
 
-    /// Reads the checkpoint of this training run. `None` if there is no file, or if the file may be replaced.
+    /// Reads the checkpoint of this training run. `None` if there is no file, or only an unusable file that may be replaced.
     pub(crate) fn take(&self) -> Result<Option<Checkpoint>, CheckpointError> {
         self.checkpoints.take(&self.identity)
     }

@@ -52,7 +52,7 @@ impl Choice {
 pub struct ChannelChoice {
     /// Chosen value of the setting; `None` if no setting was chosen.
     pub value: Option<f64>,
-    /// Root mean square error over the held-out samples of the choice, or else over the validation part. In the unit of the channel. `None` without
+    /// Root mean square error in the unit of the channel, over the held-out samples of the choice or else over the validation part. `None` without
     /// such samples, or if the error is not finite.
     pub rmse: Option<f64>,
     /// True if the first or last candidate value was chosen. A better value may then lie outside the range of candidates.

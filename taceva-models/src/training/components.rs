@@ -1,4 +1,4 @@
-//! Regressors that read principal components, for models that cannot be converted to weights of features.
+//! Regressors that read principal components, for models whose weights cannot be converted to weights of features.
 
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 

@@ -22,7 +22,7 @@ pub struct NetworkCard {
     pub convolutions: ConvolutionForm,
     /// Instruction set of the CPU that fitted the network. Predictions with the same instruction set are bitwise equal.
     pub instructions: String,
-    /// GPU that trained the network; `None` for the CPU. Repeated training on a GPU gives slightly different weights.
+    /// GPU that trained the network; `None` for the CPU. Repeated training on a GPU gives different weights.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gpu: Option<String>,
     /// Classes that the outputs stand for; `None` if the outputs predict numbers.
