@@ -1,14 +1,14 @@
-//! Threads for models, also on systems that allow only a few threads.
+//! Thread pool that models compute with, also on systems that allow only a few threads.
 
 use std::num::NonZeroUsize;
 use std::sync::mpsc::channel;
 use std::thread;
 
-/// Prepares the thread pool of models: at most one thread per core, limited by the system.
+/// Prepares the global thread pool that models compute with. The pool has at most one thread per core.
 ///
-/// Returns the number of `wanted` threads that the system can start in addition to the calling thread. Containers may allow few or none. With fewer
-/// threads than cores, models share these threads. Without threads, the calling thread computes alone. If this function is not called, a model panics
-/// in that case.
+/// Returns the number of threads that the system can start in addition to the calling thread, at most `wanted`. Containers may allow few or none.
+/// With fewer threads than cores, models share these threads. Without threads, the calling thread computes alone. Models panic on a system without
+/// threads if this function was not called.
 ///
 /// ```
 /// use std::num::NonZeroUsize;

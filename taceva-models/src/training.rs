@@ -1,4 +1,4 @@
-//! Code shared by all fits: checked samples, scaled labels, trials of settings, and results.
+//! Code shared by the fits of all models: checks of samples, scaling of labels, choice of settings, and results.
 
 pub(crate) mod card;
 pub(crate) mod checkpoint;

@@ -11,7 +11,7 @@ use crate::settings::Suggestion;
 pub struct FoldSpec {
     /// Number of folds; `None` for one fold per group.
     pub count: Option<usize>,
-    /// Kind of the groups that are never divided.
+    /// Kind of groups. All samples of a group are in one fold.
     pub by: FoldGroups,
 }
 
@@ -21,19 +21,19 @@ pub enum FoldGroups {
     /// Groups detected in the recording: repeated points, otherwise blocks of similar neighbouring samples, otherwise single samples.
     #[default]
     Detected,
-    /// Single samples.
+    /// Every sample is a group of its own.
     Samples,
-    /// Samples of the same contact point.
+    /// Samples of the same contact point form a group.
     Points,
-    /// Samples in the same block of time.
+    /// Consecutive samples of the same time block form a group.
     Blocks,
-    /// Samples of the same recording.
+    /// Samples of the same recording form a group.
     Recordings,
-    /// Samples with the same value in this column.
+    /// Samples with the same value in the named column form a group.
     Column(String),
 }
 
-/// Words for kinds of groups, in the order of suggestions.
+/// Accepted names of kinds of groups, in the order in which an error message suggests them.
 const GROUPS: [&str; 5] = [
     "random",
     "by-point",
@@ -43,7 +43,7 @@ const GROUPS: [&str; 5] = [
 ];
 
 impl FoldSpec {
-    /// Parses cross-validations such as `cv:5`, `cv:10 by-point` or `loo by-column:object`; `None` for other splits.
+    /// Parses the text of a cross-validation, such as `cv:5`, `cv:10 by-point` or `loo by-column:object`; `None` for other splits.
     pub(super) fn parse(text: &str) -> Option<Result<FoldSpec, SplitError>> {
         let (word, by) = text.split_once(' ').unwrap_or((text, ""));
         let count = match (word, word.strip_prefix("cv:")) {

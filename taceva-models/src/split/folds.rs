@@ -12,18 +12,18 @@ use super::input::SplitInput;
 use super::part::Part;
 use crate::settings::Suggestion;
 
-/// Folds of a recording, with the group of every sample.
+/// Splits of a cross-validation, and the group of every sample.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Folds {
-    /// One split per fold. Every sample of a group is in exactly one test part.
+    /// One split per fold. Each sample that has a group is in the test part of exactly one split.
     pub splits: Vec<Split>,
     /// Group name of each sample; empty for samples without a group.
     pub groups: Vec<String>,
 }
 
 impl FoldSpec {
-    /// Computes the folds of `input`. The same seed gives the same folds on every machine. The untested groups of a fold are divided into training and
-    /// validation, in the shares of `fractions`.
+    /// Divides the samples of `input` into folds. The same seed gives the same folds on every machine. The groups outside the test part of a fold are
+    /// divided between training and validation in the shares of `fractions`.
     ///
     /// ```
     /// use taceva_models::{Fractions, FoldGroups, FoldSpec, SplitInput};
@@ -36,7 +36,7 @@ impl FoldSpec {
     /// ```
     ///
     /// # Errors
-    /// [`SplitError`] if `input` lacks the names of the groups, or has fewer than two groups or fewer groups than folds.
+    /// [`SplitError`] for columns of unequal lengths, for missing group names, and for fewer than two groups or fewer groups than folds.
     pub fn folds(
         &self,
         input: &SplitInput<'_>,
@@ -105,7 +105,8 @@ impl FoldSpec {
     }
 }
 
-/// Part of each group in fold `fold` of `count`. Groups are tested in turn. The groups after the tested groups are the validation part.
+/// Part of each group of `order` in fold number `fold` of `count`. Groups of this fold are the test part. Validation takes the first groups of the
+/// next folds, and training takes the rest.
 fn parts<'a>(
     order: &[&'a str],
     fold: usize,

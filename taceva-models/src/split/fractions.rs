@@ -1,11 +1,11 @@
-//! Shares of the three parts.
+//! Shares of samples in the training, validation and test parts.
 
 use std::fmt;
 
 use super::error::SplitError;
 use taceva_core::whole_size;
 
-/// Shares of the three parts.
+/// Shares of samples in the training, validation and test parts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fractions {
     shares: [f64; 3],
@@ -21,7 +21,7 @@ impl Default for Fractions {
 }
 
 impl Fractions {
-    /// Shares of `train`, `validation` and `test`, in any unit. Each is divided by the sum of all.
+    /// Shares proportional to `train`, `validation` and `test`, such as 70, 20 and 10. Each number is divided by their sum.
     ///
     /// # Errors
     /// [`SplitError::Fractions`] unless all shares are finite and nonnegative, and training has a share.
@@ -37,7 +37,8 @@ impl Fractions {
         }
     }
 
-    /// Number of validation groups among `total` training and validation groups. 0 without a validation share or groups, else below `total`.
+    /// Number of validation groups if `total` groups are divided between training and validation. Training keeps at least one group. Validation gets
+    /// at least one if its share is positive and `total` exceeds 1.
     pub(super) fn validation_of_rest(&self, total: usize) -> usize {
         let [train, validation, _] = self.shares;
         let rest = Fractions {
@@ -48,12 +49,12 @@ impl Fractions {
         wanted.max(least).min(total.saturating_sub(1))
     }
 
-    /// Shares in the order of [`Part::ALL`](crate::Part::ALL). Their sum is 1.
+    /// Shares of training, validation and test, in this order. Their sum is 1.
     pub fn shares(&self) -> [f64; 3] {
         self.shares
     }
 
-    /// Divides `total` by the largest-remainder method. Of equal remainders, the earlier part has precedence.
+    /// Number of items in each part if `total` items are divided by the largest-remainder method. Equal remainders favour the earlier part.
     pub(super) fn counts(&self, total: usize) -> [usize; 3] {
         let exact = self.shares.map(|share| share * total as f64);
         // 0.7 × 10 is 7.000…: a number that is an integer to within rounding counts as one.

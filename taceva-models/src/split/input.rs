@@ -18,16 +18,16 @@ pub struct SplitInput<'a> {
     pub points: Option<&'a [String]>,
     /// Time of each sample, in s.
     pub times_s: Option<&'a [f64]>,
-    /// Part of each sample, as the recording declares it.
+    /// Part that the recording declares for each sample, such as `train` or `test`.
     pub parts: Option<&'a [String]>,
-    /// Columns by name.
+    /// Values of each sample in further columns, by column name.
     pub columns: BTreeMap<&'a str, &'a [String]>,
     /// Name of the recording of each sample, if there are several recordings.
     pub recordings: Option<&'a [String]>,
     /// Blocks of time, if there are any.
     pub blocks: Option<SplitBlocks<'a>>,
-    /// First row of every section except the first, ascending. Later sections were recorded or added later. Random and chronological splits divide each section
-    /// separately, so that later samples do not change earlier parts. Empty for a single section.
+    /// First row of each section after the first, ascending; empty for a single section. A section is a run of rows that were recorded or added
+    /// together. Random and chronological splits divide each section separately, so that samples added later do not change earlier parts.
     pub sections: &'a [usize],
 }
 
@@ -39,7 +39,7 @@ pub struct SplitInput<'a> {
 pub struct SplitBlocks<'a> {
     /// Name of each sample's block; empty for samples without a block.
     pub names: &'a [String],
-    /// Position of each sample in time, counted in samples. The positions of unrelated samples differ by more than the gap.
+    /// Position of each sample in time, counted in samples. Samples that do not follow each other in one recording are more than `gap` apart.
     pub places: &'a [usize],
     /// Number of samples left out between blocks of different parts.
     pub gap: usize,
@@ -73,7 +73,8 @@ impl SplitInput<'_> {
         }
     }
 
-    /// Leaves out samples within the gap of a later part: training samples near validation or test samples, and validation samples near test samples.
+    /// Leaves out samples that lie within `gap` samples of a later part. Training samples may not be near validation or test samples, nor validation
+    /// samples near test samples.
     pub(super) fn apart(&self, split: Split) -> Split {
         let Some(SplitBlocks { places, gap, .. }) = self.blocks.filter(|blocks| blocks.gap > 0)
         else {

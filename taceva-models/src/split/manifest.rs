@@ -1,4 +1,4 @@
-//! Record of a split, with which others can reproduce its parts.
+//! Record of a split: seed and sample ids, from which its parts can be reproduced.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,26 +7,26 @@ use super::error::SplitError;
 use super::part::Part;
 use super::spec::SplitSpec;
 
-/// Record of the parts of a split, with the ids of their samples.
+/// Record of a split. Lists the sample ids of each part.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SplitManifest {
-    /// Split as the user wrote it, with its fractions.
+    /// Specification of the split in its standard spelling, with its fractions.
     pub split: String,
-    /// Random seed.
+    /// Seed of the random assignment of samples to parts.
     pub seed: u64,
     /// Number of samples in each part.
     pub counts: SplitCounts,
-    /// Note for readers of the record; `None` for no note.
+    /// Note about the split, such as the reason for omitted samples; `None` for no note.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
     /// Ids of the training samples.
     pub train: Vec<String>,
-    /// Ids of the validation samples, on which settings are chosen.
+    /// Ids of the validation samples, on which model settings are chosen.
     pub validation: Vec<String>,
     /// Ids of the test samples.
     pub test: Vec<String>,
-    /// Ids of the test samples of each fold; empty for a single division.
+    /// Ids of the test samples of each fold; empty if the split is not a cross-validation.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub folds: Vec<Vec<String>>,
 }
@@ -37,16 +37,16 @@ pub struct SplitManifest {
 pub struct SplitCounts {
     /// Number of training samples.
     pub train: usize,
-    /// Number of validation samples, on which settings are chosen.
+    /// Number of validation samples, on which model settings are chosen.
     pub validation: usize,
     /// Number of test samples.
     pub test: usize,
-    /// Number of samples that belong to no part.
+    /// Number of omitted samples, which belong to no part.
     pub left_out: usize,
 }
 
 impl SplitCounts {
-    /// Counts of `split`.
+    /// Counts the samples of each part of `split`.
     pub fn of(split: &Split) -> SplitCounts {
         SplitCounts {
             train: split.train.len(),
@@ -58,7 +58,7 @@ impl SplitCounts {
 }
 
 impl SplitManifest {
-    /// Records `split`. `ids` contains the id of each row.
+    /// Creates the record of `split`. `ids` contains the id of each row.
     ///
     /// # Errors
     /// [`SplitError::Length`] if the number of `ids` differs from the number of rows of the split.

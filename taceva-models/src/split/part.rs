@@ -4,23 +4,23 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// Part of a split.
+/// Part of the samples: training, validation or test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Part {
     /// Training samples.
     Train,
-    /// Validation samples, on which settings are chosen.
+    /// Validation samples, on which model settings are chosen.
     Validation,
-    /// Test samples, which the fit does not read.
+    /// Test samples, which are not used in a fit.
     Test,
 }
 
 impl Part {
-    /// All parts, in order.
+    /// All parts, in the order training, validation, test.
     pub const ALL: [Part; 3] = [Part::Train, Part::Validation, Part::Test];
 
-    /// Parses `train`, `val`, `validation` or `test`; `None` for other names.
+    /// Returns the part named `train`, `val`, `validation` or `test`; `None` for other names.
     pub fn from_name(name: &str) -> Option<Part> {
         match name {
             "train" => Some(Part::Train),
@@ -30,7 +30,7 @@ impl Part {
         }
     }
 
-    /// Name of the part.
+    /// Name of the part: `train`, `validation` or `test`.
     pub const fn name(self) -> &'static str {
         match self {
             Part::Train => "train",

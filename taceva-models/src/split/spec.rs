@@ -1,4 +1,4 @@
-//! Specification of a split.
+//! Specification of a split into training, validation and test parts.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -13,44 +13,44 @@ use crate::settings::Suggestion;
 /// Specification of a split into training, validation and test parts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SplitSpec {
-    /// Method of assignment.
+    /// Method that assigns samples to parts.
     pub kind: SplitKind,
-    /// Sizes of the parts. Ignored if parts are named.
+    /// Shares of the parts. Ignored if the specification lists the values or recordings of each part.
     pub fractions: Fractions,
 }
 
 /// Method of assigning samples to parts.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum SplitKind {
-    /// Random, by sample.
+    /// Assigns each sample at random.
     Random,
-    /// By time: the first samples are for training, the last samples for test.
+    /// Assigns samples by time: the first to training, the next to validation, the last to test.
     Chronological,
-    /// Random, by contact point. All presses at a point are in one part.
+    /// Assigns contact points at random. All presses at a point are in one part.
     #[default]
     ByPoint,
-    /// By the values in a column.
+    /// Assigns samples by their value in a column.
     ByColumn(ColumnSplit),
-    /// By recording, with named parts. Random if no part is named.
+    /// Assigns recordings to the listed parts. If the list is empty, recordings are assigned at random.
     ByRecording(BTreeMap<String, Part>),
-    /// Random, by block of time, with a gap between blocks of different parts.
+    /// Assigns blocks of consecutive samples at random. Samples too close to a block of a later part are left out.
     ByBlock,
-    /// Cross-validation over several recordings: each recording is predicted by a model fitted to all other recordings.
+    /// Cross-validation with one fold per recording. Each recording is predicted by a model fitted to the other recordings.
     LeaveOneRecordingOut,
-    /// Cross-validation: each group is predicted by a model fitted to other groups.
+    /// Cross-validation with groups of samples. Each group is predicted by a model fitted to other groups.
     Folds(FoldSpec),
-    /// Parts that the recording declares.
+    /// Uses the parts that the recording declares.
     Declared,
-    /// No split: all samples are for training, for a final model that is tested on other recordings.
+    /// Assigns all samples to training, for a final model that is tested on other recordings.
     All,
 }
 
-/// A column whose values determine the part of a sample.
+/// Column whose values determine the part of each sample.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ColumnSplit {
     /// Name of the column.
     pub column: String,
-    /// Part of each value. If empty, values are assigned at random.
+    /// Part of each value. If empty, each value is assigned to a part at random.
     pub parts: BTreeMap<String, Part>,
 }
 
@@ -71,9 +71,9 @@ const KINDS: [&str; 11] = [
 impl FromStr for SplitSpec {
     type Err = SplitError;
 
-    /// Parses `random`, `chronological`, `by-point`, `by-block`, `cv:5`, `cv:5 by-point`, `loo`, `by-column:NAME`,
-    /// `by-column:NAME=train:1,2;val:3;test:4`, `by-recording`, `by-recording=train:a,b;test:c`, `leave-one-recording-out`, `declared` or
-    /// `all`, and shares after a space: `random 70/20/10`. A `\` escapes `,`, `;` and `\` in values. Inverse of `Display`.
+    /// Parses a specification as written by `Display`. Accepted are `random`, `chronological`, `by-point`, `by-block`, `cv:5`, `cv:5 by-point`,
+    /// `loo`, `by-column:NAME`, `by-column:NAME=train:1,2;val:3;test:4`, `by-recording`, `by-recording=train:a,b;test:c`, `leave-one-recording-out`,
+    /// `declared` and `all`. Shares may follow after a space: `random 70/20/10`. A `\` escapes `,`, `;` and `\` in values.
     fn from_str(text: &str) -> Result<SplitSpec, SplitError> {
         let shares = text
             .rsplit_once(' ')
@@ -130,13 +130,13 @@ fn three_numbers(text: &str) -> Option<[f64; 3]> {
     numbers?.try_into().ok()
 }
 
-/// Converts `chronological:80/0/20` to `chronological 80/0/20`; `None` for a text without shares after a colon.
+/// Converts `chronological:80/0/20` to `chronological 80/0/20`; `None` if `text` does not end in a colon and three numbers.
 fn with_shares(text: &str) -> Option<String> {
     let (word, shares) = text.rsplit_once(':')?;
     three_numbers(shares).map(|_| format!("{word} {shares}"))
 }
 
-/// Rejects `shares` at the end of `text` if their sum is not 100 or 1. [`Fractions::new`] rejects infinite and negative shares.
+/// Returns an error for `text` if its `shares` sum to neither 100 nor 1. [`Fractions::new`] rejects infinite and negative shares.
 fn check_sum(text: &str, shares: [f64; 3]) -> Result<(), SplitError> {
     let sum: f64 = shares.iter().sum();
     let is_whole = [100.0, 1.0]
@@ -171,7 +171,7 @@ fn column_split(text: &str) -> Result<ColumnSplit, SplitError> {
     })
 }
 
-/// Parses `assignment`, such as `train:1,2;val:3;test:4`, at the end of `text`.
+/// Part of each value in `assignment`, such as `train:1,2;val:3;test:4`. `text` is the whole specification, for error messages.
 fn named_parts(text: &str, assignment: &str) -> Result<BTreeMap<String, Part>, SplitError> {
     let malformed = |found: &str| SplitError::Assignment {
         found: found.to_owned(),
@@ -197,7 +197,7 @@ fn named_parts(text: &str, assignment: &str) -> Result<BTreeMap<String, Part>, S
     }
 }
 
-/// Splits `text` at separators that are not escaped by `\`.
+/// Splits `text` at each `separator` that is not escaped by `\`.
 fn pieces(text: &str, separator: char) -> Vec<&str> {
     let (mut pieces, mut begin, mut is_letter) = (Vec::new(), 0, false);
     for (at, letter) in text.char_indices() {
@@ -211,7 +211,7 @@ fn pieces(text: &str, separator: char) -> Vec<&str> {
     pieces
 }
 
-/// Separators of values, and the escape character.
+/// Characters that are escaped in values: both separators and the escape character.
 const MARKS: [char; 3] = [',', ';', '\\'];
 
 /// Removes the escape characters from a value.
@@ -225,7 +225,7 @@ fn letters(text: &str) -> String {
     value
 }
 
-/// Escapes a value.
+/// Escapes `,`, `;` and `\` in a value by `\`.
 fn written(value: &str) -> String {
     let mut text = String::with_capacity(value.len());
     for letter in value.chars() {

@@ -1,4 +1,4 @@
-//! Model cards: kind of the model, training data, and errors of the fit.
+//! Model cards. A card describes the model, its training data and its choice of settings.
 
 mod auto;
 mod distance;
@@ -29,57 +29,57 @@ pub struct ModelCard {
     pub format: String,
     /// Version of TacEva with which the model was fitted.
     pub taceva: String,
-    /// Name of the model.
+    /// Name of the model in the registry, such as `ridge`.
     pub model: String,
     /// Settings that the user gave, as `key=value`.
     pub settings: Vec<String>,
-    /// Chosen setting and error of each channel.
+    /// Setting chosen for each channel, and its error.
     pub choice: Choice,
-    /// True if the model was refitted on training and validation parts with the chosen settings.
+    /// True if the model was refitted on the training and validation parts after its settings were chosen.
     pub refitted: bool,
-    /// Specification of the features of frames or signals.
+    /// Features that the model computes from frames or signals.
     pub features: FeatureSpec,
     /// Share of the training variance that the principal components explain; `None` without principal components.
     pub pca_variance: Option<f64>,
-    /// The only accepted input: size and format of frames (`frame` in the file), or grid of signals (`signals`).
+    /// Accepted input. In the file, `frame` states the size and format of frames, or `signals` the taxel grid.
     #[serde(flatten)]
     pub input: InputInfo,
-    /// Divisor of each channel of a taxel: the spread over the training part, rounded to a power of two. `None` for frames.
+    /// Divisor of each signal channel: its spread over the training part, rounded to a power of two. `None` for a model of frames.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spread: Option<Vec<f64>>,
-    /// Maximum distance of predictions beyond the training labels, as a share of the label range.
+    /// Maximum amount by which predictions may exceed the range of the training labels, as a share of this range.
     pub margin: f64,
-    /// Learnt channels: each predicted channel, or the sine and cosine of an angle with a period.
+    /// Channels that the regressor predicts. An angle with a period is represented by its sine and cosine.
     pub channels: Vec<ChannelCard>,
     /// Predicted angles with a period.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub angles: Vec<AngleCard>,
-    /// Limits of the distance from the training samples; `None` for a model without features, or in older files.
+    /// Limits above which a sample is too unlike the training samples; `None` for a model without features, or in older files.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub distance: Option<DistanceCard>,
     /// Number of samples in each part.
     pub samples: SampleCounts,
     /// Provenance of the samples.
     pub provenance: Provenance,
-    /// Form of the model; `None` for a linear model or a network.
+    /// Form of the model; `None` for a linear model, a network or a plugin model.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub form: Option<Form>,
-    /// Record of an automatic choice of model; `None` without this choice.
+    /// Record of the automatic choice among models; `None` if the user named the model.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub auto: Option<AutoCard>,
-    /// Record of an automatic choice of features; `None` without this choice.
+    /// Record of the automatic choice among features; `None` if features were not chosen automatically.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub feature_choice: Option<FeatureChoice>,
-    /// Network settings; `None` for other models.
+    /// Settings of the network; `None` for a model without a network, and for an ensemble.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub network: Option<NetworkCard>,
-    /// Network settings of each member of an ensemble; empty for other models.
+    /// Network settings of each ensemble member; empty if the model is not an ensemble.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ensemble: Vec<NetworkCard>,
-    /// Library that fitted the model and is needed to read it; `None` for other models.
+    /// External library that fitted the model and is needed to read it; `None` for a model of TacEva or a plugin.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub library: Option<LibraryCard>,
-    /// Plugin that fitted the model and is needed for predictions; `None` for other models.
+    /// Plugin that fitted the model and is needed for predictions; `None` without a plugin.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plugin: Option<PluginCard>,
 }
@@ -88,52 +88,52 @@ pub struct ModelCard {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Form {
-    /// Kernel evaluated at landmarks.
+    /// Model of kernel values between a sample and landmarks.
     Kernel {
-        /// Number of landmarks: training samples with which every sample is compared.
+        /// Number of landmarks: training samples to which the kernel compares every sample.
         landmarks: usize,
-        /// Kernel length, in typical distances of a sample from the mean.
+        /// Kernel length, relative to the root mean square distance of training samples from their mean.
         length: f64,
         /// True if the model estimates standard deviations of its predictions.
         deviations: bool,
     },
-    /// Nearest training samples.
+    /// Model that predicts from the nearest training samples.
     Neighbours {
         /// Number of stored training samples.
         samples: usize,
     },
-    /// Model that predicts one of the training labels.
+    /// Classifier. Every prediction is one of the training labels.
     Classes {
         /// Total number of classes over all channels.
         classes: usize,
     },
-    /// Sum of trees.
+    /// Sum of decision trees.
     Trees {
         /// Number of trees.
         trees: usize,
     },
-    /// Model of another library.
+    /// Model fitted by an external library.
     Library,
 }
 
-/// A channel and its training labels.
+/// Channel of a model, with statistics of its training labels.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ChannelCard {
     /// Name of the channel.
     pub name: String,
-    /// Unit of the predictions.
+    /// Unit of the channel.
     pub unit: Unit,
     /// Least training label.
     pub minimum: f64,
     /// Range of the training labels; 1 if all labels are equal.
     pub span: f64,
-    /// Mean training label: the best constant prediction, and the reference of the skill.
+    /// Mean training label, which is the best constant prediction. Skill is measured relative to this prediction.
     pub mean: f64,
-    /// True if all training labels are equal. The model then predicts this label.
+    /// True if all training labels of the channel are equal. The model then always predicts this label.
     pub constant_label: bool,
 }
 
-/// An angle with a period, learnt as the channels `NAME_sin` and `NAME_cos`.
+/// Angle with a period. The model learns its sine and cosine as the channels `NAME_sin` and `NAME_cos`.
 ///
 /// ```
 /// let text = r#"{"name": "yaw", "period": 360, "from_zero": false, "mean": -12.5}"#;
@@ -143,16 +143,16 @@ pub struct ChannelCard {
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AngleCard {
-    /// Name of the angle.
+    /// Name of the predicted angle.
     pub name: String,
     /// Unit of predictions: degrees or radians.
     #[serde(default = "degree", skip_serializing_if = "is_degree")]
     pub unit: Unit,
     /// Period, in degrees.
     pub period: u16,
-    /// True for predictions between 0 and the period, like the labels; false for predictions centred at 0.
+    /// True if predictions are between 0 and the period. False if they are between minus and plus half a period.
     pub from_zero: bool,
-    /// Mean direction of the training part, in `unit`.
+    /// Mean direction of the training labels, in `unit`.
     pub mean: f64,
 }
 
@@ -176,24 +176,24 @@ pub struct SampleCounts {
 /// Provenance of the samples of a fit.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
-    /// Digest of the recording, `sha256:…`. For several recordings, the digest of all recordings in order. `None` if unknown.
+    /// Digest of the recording, `sha256:…`; for several recordings, the digest of all of them in order. `None` if unknown.
     pub data: Option<String>,
-    /// Digest of each recording, in order, if there are several.
+    /// Digest of each recording, in order; empty for a single recording.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub recordings: Vec<String>,
-    /// View of the frames, if samples have several pictures: `left`, or `left+right` for both side by side.
+    /// View of the frames: `left`, or `left+right` for two pictures side by side. `None` if each sample has a single picture.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub view: Option<String>,
-    /// Origin of the recording.
+    /// Origin of the recording: real sensor, simulation or test data.
     pub source: Source,
-    /// Split of the recording; `None` if there was no split.
+    /// Split of the recording; `None` if the recording was not split.
     pub split: Option<SplitCard>,
-    /// Further notes for readers.
+    /// Notes on the samples and their split, as sentences for the user.
     pub notes: Vec<String>,
-    /// Cross-validation scores, for a model fitted to all samples; `None` without a cross-validation.
+    /// Cross-validation of a model that was fitted to all samples; `None` if there was none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub validation: Option<ValidationCard>,
-    /// Task whose classes the model predicts; `None` for measured channels.
+    /// Task whose classes or pose the model predicts; `None` for a model of other channels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub task: Option<TaskCard>,
 }
@@ -201,29 +201,29 @@ pub struct Provenance {
 /// Cross-validation of a model that was fitted to all samples.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ValidationCard {
-    /// Split, such as `cv:5 by-point`.
+    /// Specification of the split, such as `cv:5 by-point`.
     pub split: String,
-    /// Seed of the split.
+    /// Seed of the random assignment of samples to parts.
     pub seed: u64,
-    /// Number of predicted samples.
+    /// Number of samples in the test parts.
     pub samples: usize,
-    /// Findings about similar neighbouring samples.
+    /// Note on neighbouring samples that resemble each other; `None` if there is no such note.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub neighbours: Option<String>,
     /// Scores of the cross-validation.
     pub scores: Vec<ValidationScore>,
 }
 
-/// Score of a cross-validation.
+/// Score of one metric and channel in a cross-validation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ValidationScore {
-    /// Metric of the score, such as `mae`.
+    /// Name of the metric, such as `mae`.
     pub metric: String,
-    /// Channel of the score.
+    /// Name of the channel.
     pub channel: String,
-    /// Value of the score, in the unit of metric and channel.
+    /// Value of the score. Its unit depends on the metric and the channel.
     pub value: f64,
-    /// 95 % interval of the score; `None` if it has no interval.
+    /// Lower and upper end of the 95 % confidence interval of the score; `None` if the interval is unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interval: Option<[f64; 2]>,
 }
@@ -232,27 +232,27 @@ pub struct ValidationScore {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Source {
-    /// A real sensor.
+    /// The recording comes from a real sensor.
     Recorded,
-    /// A simulated sensor.
+    /// The recording comes from a simulated sensor.
     Simulated,
-    /// Artificial numbers for a test.
+    /// The recording contains artificial test data.
     Synthetic,
-    /// Origin not stated.
+    /// The origin of the recording is not stated.
     #[default]
     Unknown,
 }
 
-/// A split and its seed.
+/// Specification and seed of a split.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SplitCard {
-    /// Split as the user wrote it, with its fractions.
+    /// Specification of the split in its standard spelling, with its fractions.
     pub split: String,
-    /// Seed of the split.
+    /// Seed of the random assignment of samples to parts.
     pub seed: u64,
 }
 
-/// Entries of a card that depend on the kind of model.
+/// Entries of a model card that depend on the kind of model.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct KindCard {
     pub(crate) form: Option<Form>,
@@ -272,10 +272,10 @@ impl From<Form> for KindCard {
 }
 
 impl ModelCard {
-    /// Version of the format that this crate writes.
+    /// Version of the model file format that this crate writes.
     pub const FORMAT: &'static str = FORMAT;
 
-    /// Entries that depend on the kind of model.
+    /// Card entries that depend on the kind of model.
     pub(crate) fn kind(&self) -> KindCard {
         KindCard {
             form: self.form,

@@ -19,9 +19,9 @@ pub(crate) use identity::Identity;
 /// Checkpoints do not affect the result. A resumed training gives the same bits as an uninterrupted training.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Checkpoints {
-    /// Path of the checkpoint file. Checkpoints are written as `.<name>.partial` in the same folder, synchronised to disk and renamed.
+    /// Path of the checkpoint file. A checkpoint is first written to `.<name>.partial` in the same folder, synchronised to disk and renamed.
     pub path: PathBuf,
-    /// Minimum interval between checkpoints, checked after each step. A cancelled training run also writes a checkpoint.
+    /// Minimum interval between checkpoints, checked after each training step. A cancelled training run also writes a checkpoint.
     pub every: Duration,
     /// Action if the checkpoint is damaged or belongs to another training run.
     pub foreign: Foreign,
@@ -30,14 +30,14 @@ pub struct Checkpoints {
 /// Action for a checkpoint that is damaged or belongs to another training run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Foreign {
-    /// Keeps the file and returns an error.
+    /// Keeps the file, and the training fails with an error.
     Refuse,
-    /// Overwrites the file at the next checkpoint.
+    /// Starts the training anew, and overwrites the file at the next checkpoint.
     Replace,
 }
 
 impl Checkpoints {
-    /// Default interval of 30 s. Little work is lost, and writing takes a small part of the training time.
+    /// Default interval of 30 s. An interruption loses about 30 s of work, and writing takes a small part of the training time.
     pub const EVERY: Duration = Duration::from_secs(30);
 
     /// Checkpoints at `path`, every [`EVERY`](Checkpoints::EVERY). A checkpoint of another training run is not overwritten.
@@ -60,7 +60,8 @@ impl Checkpoints {
         }
     }
 
-    /// Reads the checkpoint of the training run `identity`; `None` if there is no file.
+    /// Reads the checkpoint of the training run `identity`. `None` if there is no file, or if [`foreign`](Checkpoints::foreign) replaces an unusable
+    /// file.
     pub(crate) fn take(&self, identity: &Identity) -> Result<Option<Checkpoint>, CheckpointError> {
         let refuse = |problem: String| CheckpointError::Damaged {
             path: self.path.clone(),
@@ -88,7 +89,7 @@ impl Checkpoints {
         }
     }
 
-    /// Writes a checkpoint of `trainer`, which executes the training run `identity`.
+    /// Writes a checkpoint of `trainer` for the training run `identity`.
     fn put(&self, identity: &Identity, trainer: &Trainer<'_>) -> Result<(), CheckpointError> {
         let checkpoint = trainer.checkpoint().map_err(CheckpointError::Unread)?;
         taceva_files::replace(&self.path, |staged| {
@@ -101,7 +102,7 @@ impl Checkpoints {
     }
 }
 
-/// Checkpoint location of a training run in progress, with the time of the last checkpoint.
+/// Checkpoint file of a training run in progress, with the time of the last checkpoint.
 pub(crate) struct Shelf<'a> {
     checkpoints: &'a Checkpoints,
     identity: Identity,
@@ -121,7 +122,7 @@ impl<'a> Shelf<'a> {
         &self.checkpoints.path
     }
 
-    /// Reads the checkpoint of this training run; `None` if there is no file.
+    /// Reads the checkpoint of this training run. `None` if there is no file, or only an unusable file that may be replaced.
     pub(crate) fn take(&self) -> Result<Option<Checkpoint>, CheckpointError> {
         self.checkpoints.take(&self.identity)
     }
@@ -141,7 +142,7 @@ impl<'a> Shelf<'a> {
     }
 }
 
-/// Reads the file up to one byte beyond the limit of a checkpoint; `None` if there is no file.
+/// Reads at most [`FILE_MAX`](bytes::FILE_MAX) + 1 bytes, so that a larger file can be detected; `None` if there is no file.
 fn read_capped(path: &Path) -> io::Result<Option<Vec<u8>>> {
     // Checks before opening: opening a pipe would block until it has a writer.
     match fs::metadata(path) {

@@ -1,4 +1,4 @@
-//! Chosen settings, and the criterion of the choice.
+//! Choice of a model setting: chosen value of each channel, and criterion.
 
 use serde::{Deserialize, Serialize};
 use taceva_core::{ModelError, Regressor, TrainingSet};
@@ -7,33 +7,33 @@ use taceva_core::{ModelError, Regressor, TrainingSet};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ChosenBy {
-    /// No choice, because the model has no such setting, or the user set it.
+    /// No choice was made, because the model has no such setting or the user set it.
     Nobody,
-    /// Least squared error on the validation part.
+    /// Least mean squared error on the validation part.
     Validation,
-    /// Least squared error on groups left out in turn.
+    /// Least mean squared error on groups of training samples, each held out once.
     LeaveOneGroupOut,
-    /// Greatest likelihood of the training labels.
+    /// Greatest likelihood of the training labels under the model.
     Likelihood,
-    /// Least squared error on samples left out in turn.
+    /// Least mean squared error on training samples, each held out once.
     LeaveOneOut,
-    /// Least squared error on ten folds left out in turn: whole groups, or runs of neighbouring samples.
+    /// Least mean squared error on ten folds, each held out once. Folds consist of whole groups, or of runs of neighbouring samples.
     TenFolds,
 }
 
-/// Record of the setting chosen for every channel.
+/// Record of the choice of one setting, with a value for each channel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Choice {
     /// Criterion of the choice.
     pub by: ChosenBy,
     /// Name of the chosen setting, such as `strength` or `components`; `None` without a choice.
     pub setting: Option<String>,
-    /// Choice for each channel.
+    /// Chosen value and error of each channel.
     pub channels: Vec<ChannelChoice>,
 }
 
 impl Choice {
-    /// Record without a choice. It contains the validation error of each channel, if known.
+    /// Record for a model without a choice. `errors` contains the root mean square validation error of each channel, if known.
     pub(crate) fn nobodys(errors: impl IntoIterator<Item = Option<f64>>) -> Choice {
         let scored = |rmse| ChannelChoice {
             rmse,
@@ -47,22 +47,22 @@ impl Choice {
     }
 }
 
-/// Choice for one channel.
+/// Chosen value of a setting for one channel, and its error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ChannelChoice {
     /// Chosen value of the setting; `None` if no setting was chosen.
     pub value: Option<f64>,
-    /// Root mean square error in the unit of the channel, on the samples of the choice or on the validation part. `None` if there are no such samples, or if
-    /// the error is not finite.
+    /// Root mean square error in the unit of the channel, over the held-out samples of the choice or else over the validation part. `None` without
+    /// such samples, or if the error is not finite.
     pub rmse: Option<f64>,
-    /// True if the first or last candidate was chosen. A better value may then be outside the range.
+    /// True if the first or last candidate value was chosen. A better value may then lie outside the range of candidates.
     pub at_edge: bool,
 }
 
-/// Mean squared error of each channel (inner) at each candidate (outer).
+/// Mean squared errors, indexed by candidate value, then by channel.
 pub(crate) type Errors = Vec<Vec<f64>>;
 
-/// Index of the candidate with the least error for a channel. Of equal errors, the last and simplest candidate is chosen.
+/// Index of the candidate with the least error for `channel`. Among equal errors, the last candidate wins, because it is the simplest.
 pub(crate) fn least(errors: &Errors, channel: usize) -> usize {
     let mut best = errors.len().saturating_sub(1);
     for candidate in (0..best).rev() {
@@ -73,7 +73,7 @@ pub(crate) fn least(errors: &Errors, channel: usize) -> usize {
     best
 }
 
-/// Root mean square error of each channel on the validation part.
+/// Root mean square error of each channel over the samples of `set`; `None` if it is not finite.
 pub(crate) fn errors(
     regressor: &dyn Regressor,
     set: &TrainingSet<'_>,
@@ -94,7 +94,7 @@ pub(crate) fn errors(
     Ok((0..channels).map(of).collect())
 }
 
-/// Converts a mean squared error to a root in the unit of a channel with the label range `span`; `None` if it is not finite.
+/// Root mean square error in the unit of a channel with the label range `span`; `None` if it is not finite.
 pub(crate) fn rmse(mean_squared: f64, span: f64) -> Option<f64> {
     let rmse = mean_squared.sqrt() * span;
     rmse.is_finite().then_some(rmse)

@@ -1,4 +1,4 @@
-//! Regressors of principal components, for models whose weights cannot be converted to weights of pixels.
+//! Regressors that read principal components, for models whose weights cannot be converted to weights of features.
 
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 
@@ -9,7 +9,7 @@ use crate::training::file::tensors::{Raw, Tensors};
 use crate::training::output::check_call;
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// Principal components, and a regressor that reads their values.
+/// Principal components, and a regressor that reads a sample projected onto them.
 #[derive(Debug)]
 pub(crate) struct ProjectedRegressor {
     pca: Pca,
@@ -25,7 +25,7 @@ impl ProjectedRegressor {
         ProjectedRegressor { pca, inner }
     }
 
-    /// Reads the components from a file.
+    /// Reads `count` principal components of features of `shape` from a model file.
     pub(crate) fn pca_from(
         tensors: &Tensors<'_>,
         shape: FeatureShape,

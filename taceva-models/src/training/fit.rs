@@ -9,7 +9,7 @@ use crate::training::choice::Choice;
 use crate::training::label_scaling::LabelScaling;
 use crate::training::regressor::ModelRegressor;
 
-/// Implements [`Estimator`] for a [`ModelEstimator`], from its name and `fit_model`.
+/// Implements [`Estimator`] for a [`ModelEstimator`], from an expression for the name and from `fit_model`.
 macro_rules! estimator {
     ($estimator:ty, |$own:pat_param| $name:expr) => {
         impl taceva_core::Estimator for $estimator {
@@ -33,11 +33,11 @@ macro_rules! estimator {
 }
 pub(crate) use estimator;
 
-/// An estimator whose regressor can be stored in a model file, and that reports its choices.
+/// Estimator whose regressor can be stored in a model file. A fit also reports the settings that it chose.
 pub trait ModelEstimator: Estimator {
-    /// Chooses another estimator for `training`, and returns it with a record of the choice; `None` for estimators that do not choose.
+    /// Chooses a model for `training`, and returns its estimator with a record of the choice; `None` if the estimator is itself the model to fit.
     ///
-    /// Classifiers are chosen by `validation`. Some candidates use the finer features `closer` of the same samples, if given.
+    /// A classifier is chosen by its errors on `validation`. Networks may use `closer`: features of the same samples at a higher resolution.
     ///
     /// # Errors
     /// Errors of [`Estimator::fit`].
@@ -51,18 +51,18 @@ pub trait ModelEstimator: Estimator {
         Ok(None)
     }
 
-    /// True if [`choose`](ModelEstimator::choose) would use finer features for the given `[samples, finer features, channels]`. False for estimators that do
-    /// not choose.
+    /// True if [`choose`](ModelEstimator::choose) would use features of higher resolution. The argument is `[samples, features, channels]`, with the
+    /// number of features at that resolution. False for estimators that do not choose a model.
     fn looks_closer(&self, _: [usize; 3]) -> bool {
         false
     }
 
-    /// Copy of the estimator with `share` of its training, for a first comparison; `None` for estimators that are not trained step by step.
+    /// Copy of the estimator that trains for only `share` of the epochs, for an early comparison of models; `None` for estimators without epochs.
     fn first_look(&self, _share: f64) -> Option<Box<dyn ModelEstimator>> {
         None
     }
 
-    /// Fits like [`Estimator::fit`].
+    /// Fits a model as [`Estimator::fit`] does, and also returns the chosen settings and the label ranges.
     ///
     /// # Errors
     /// Errors of [`Estimator::fit`].
@@ -73,7 +73,7 @@ pub trait ModelEstimator: Estimator {
         progress: &dyn Progress,
     ) -> Result<ModelFit, ModelError>;
 
-    /// Estimator that replaces this estimator for signals of `info`; `None` for estimators that are not specific to pictures.
+    /// Estimator that replaces this estimator for taxel signals in the layout `info`; `None` if the same estimator fits pictures and signals.
     ///
     /// # Errors
     /// [`FeatureError::NarrowGrid`] if the grid is too small.
@@ -84,7 +84,7 @@ pub trait ModelEstimator: Estimator {
         Ok(None)
     }
 
-    /// Enables checkpoints. A training run then writes checkpoints and resumes from them. Ignored by models that are fitted in one step.
+    /// Sets the checkpoint file. A training run then writes checkpoints, and resumes from them. Ignored by models that are fitted in one step.
     fn keep_checkpoints(&mut self, _: Checkpoints) {}
 }
 
@@ -94,19 +94,19 @@ pub struct Chosen {
     pub estimator: Box<dyn ModelEstimator>,
     /// Record of the trials.
     pub card: AutoCard,
-    /// True if the estimator uses the finer features.
+    /// True if the estimator uses the features of higher resolution.
     pub is_closer: bool,
 }
 
-/// Result of a model fit.
+/// Result of a fit: the model, the chosen settings and the label ranges.
 #[derive(Clone, Debug)]
 pub struct ModelFit {
-    /// Fitted model, in the units of the channels.
+    /// Fitted model. Predictions have the units of the channels.
     pub regressor: ModelRegressor,
-    /// Chosen setting and error of each channel.
+    /// Setting chosen for each channel, and its error.
     pub choice: Choice,
-    /// Label ranges of the training part.
+    /// Label range of each channel over the training part.
     pub scaling: LabelScaling,
-    /// True if the model was refitted on training and validation parts with the chosen settings.
+    /// True if the model was refitted on the training and validation parts after its settings were chosen.
     pub refitted: bool,
 }

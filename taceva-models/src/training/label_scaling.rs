@@ -1,12 +1,12 @@
-//! Scales labels to 0..1 by the range of the training part, and converts predictions back.
+//! Scaling of labels to the range from 0 to 1, and back to their units.
 
 use faer::Mat;
 use taceva_core::Targets;
 
-/// Range of each channel over the training part.
+/// Minimum and span (maximum − minimum) of the training labels of each channel.
 ///
-/// Models learn (label − minimum) / span. Predictions are always converted back to the unit of the channel. A constant label has the span 1, is scaled to 0,
-/// and is [marked as constant](LabelScaling::is_constant).
+/// Models learn (label − minimum) / span. Predictions are converted back to the unit of the channel. If all labels of a channel are equal, the span
+/// is set to 1, and the channel is [marked as constant](LabelScaling::is_constant).
 #[derive(Clone, Debug, PartialEq)]
 pub struct LabelScaling {
     minimum: Vec<f64>,
@@ -44,17 +44,17 @@ impl LabelScaling {
         &self.minimum
     }
 
-    /// Label range of each channel, in the unit of the channel; 1 for constant labels.
+    /// Maximum minus minimum label of each channel, in the unit of the channel; 1 if all labels are equal.
     pub fn span(&self) -> &[f64] {
         &self.span
     }
 
-    /// True if the channel with index `position` has a constant label.
+    /// True if all training labels of the channel with index `position` are equal.
     pub fn is_constant(&self, position: usize) -> bool {
         self.constant[position]
     }
 
-    /// Scaled labels, one row per sample.
+    /// Labels minus the minimum of their channel, divided by its span. Shape `[samples, channels]`.
     pub(crate) fn scaled(&self, targets: Targets<'_>) -> Mat<f64> {
         let channels = self.span.len();
         let samples = targets.values.len() / channels.max(1);
@@ -65,7 +65,7 @@ impl LabelScaling {
     }
 }
 
-/// Mean label of each channel, in the unit of the channel: the best constant prediction of `targets`, which must not be empty.
+/// Mean label of each channel over the samples, in the unit of the channel. This is the best constant prediction. `targets` must not be empty.
 pub fn label_means(targets: Targets<'_>) -> Vec<f64> {
     let channels = targets.channels.len();
     let mean = |channel: usize| {

@@ -1,11 +1,11 @@
-//! Checks of predictions, and conversion of scaled predictions to the units of their channels.
+//! Checks of shapes and finiteness for predictions, and conversion of scaled predictions to the units of their channels.
 
 use taceva_core::{Channels, ErrorKind, FeatureShape, Features, ModelError};
 
 use crate::linalg::invalid;
 use crate::training::problem::Problem;
 
-/// Rejects features of the wrong shape and a buffer of the wrong length.
+/// Returns an error if the features have the wrong shape, or if the prediction buffer `into` has the wrong length.
 pub(crate) fn check_call(
     channels: &Channels,
     shape: FeatureShape,
@@ -29,7 +29,7 @@ pub(crate) fn check_call(
     Ok(())
 }
 
-/// Rejects predictions that are not finite.
+/// Returns an error for the first prediction that is not finite.
 pub(crate) fn check_finite(channels: &Channels, predictions: &[f64]) -> Result<(), ModelError> {
     match predictions.iter().position(|value| !value.is_finite()) {
         None => Ok(()),
@@ -44,7 +44,7 @@ pub(crate) fn check_finite(channels: &Channels, predictions: &[f64]) -> Result<(
     }
 }
 
-/// Converts centred, scaled labels to the units of the channels: offset + span · value.
+/// Offset and span of each channel, which convert a scaled and centred label y to the unit of the channel: offset + span · y.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct OutputScale {
     pub(crate) offset: Vec<f64>,
@@ -52,7 +52,7 @@ pub(crate) struct OutputScale {
 }
 
 impl OutputScale {
-    /// Adjusts the offset for values that were centred at a mean higher by `shift`.
+    /// Adapts the offsets to labels from which the additional mean `shift` was subtracted, one value per channel.
     pub(crate) fn moved(mut self, shift: &[f64]) -> OutputScale {
         let moved = self.span.iter().zip(shift);
         let places = self.offset.iter_mut().zip(moved);
@@ -60,7 +60,7 @@ impl OutputScale {
         self
     }
 
-    /// Output scale of the labels of `problem`.
+    /// Offsets and spans that undo the scaling and centring of the labels of `problem`.
     pub(crate) fn of(problem: &Problem<'_>) -> OutputScale {
         let span = problem.scaling.span().to_vec();
         let minimum = problem.scaling.minimum().iter();
@@ -74,14 +74,14 @@ impl OutputScale {
         }
     }
 
-    /// True if all numbers are finite and all lengths equal `channels`.
+    /// True if all offsets and spans are finite, and their numbers equal `channels`.
     pub(crate) fn is_valid(&self, channels: usize) -> bool {
         let mut numbers = self.offset.iter().chain(&self.span);
         [self.offset.len(), self.span.len()] == [channels; 2]
             && numbers.all(|value| value.is_finite())
     }
 
-    /// Converts the centred, scaled predictions of a sample to units.
+    /// Converts the scaled and centred predictions of one sample to the units of the channels, in place.
     pub(crate) fn unscale(&self, sample: &mut [f64]) {
         let own = self.offset.iter().zip(&self.span);
         for (place, (offset, span)) in sample.iter_mut().zip(own) {

@@ -1,4 +1,4 @@
-//! Checked, scaled and centred training data, which every fit begins with.
+//! Training data of a fit, with checked values and with scaled and centred labels.
 
 use faer::Mat;
 use taceva_core::{Features, ModelError, TrainingSet, counted};
@@ -6,14 +6,14 @@ use taceva_core::{Features, ModelError, TrainingSet, counted};
 use crate::linalg::invalid;
 use crate::training::label_scaling::LabelScaling;
 
-/// Checked, scaled and centred training part.
+/// Training part of a fit, with checked values and with scaled and centred labels.
 #[derive(Debug)]
 pub(crate) struct Problem<'a> {
     pub(crate) training: TrainingSet<'a>,
     pub(crate) scaling: LabelScaling,
-    /// Mean of each channel's scaled labels.
+    /// Mean of the scaled labels of each channel over the training samples.
     pub(crate) mean: Vec<f64>,
-    /// Scaled labels minus their channel mean, one row per sample.
+    /// Scaled labels minus the mean of their channel, shape `[samples, channels]`.
     pub(crate) centred: Mat<f64>,
 }
 
@@ -41,7 +41,7 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// Checks and scales the validation part; `None` if it has no samples.
+    /// Checks the validation part and scales its labels like the training labels; `None` if it has no samples.
     pub(crate) fn validation<'v>(
         &self,
         validation: Option<&TrainingSet<'v>>,
@@ -68,7 +68,7 @@ impl<'a> Problem<'a> {
         }))
     }
 
-    /// Rows of each group of the training part; `None` for fewer than two groups.
+    /// Row numbers of each sample group in the training part; `None` for fewer than two groups.
     pub(crate) fn groups(&self) -> Option<Vec<Vec<usize>>> {
         let groups = self.training.groups?;
         let mut members = std::collections::BTreeMap::<u32, Vec<usize>>::new();
@@ -83,15 +83,15 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// Validation part with labels scaled by the training part.
+/// Validation part, with labels scaled and centred like the training labels.
 #[derive(Debug)]
 pub(crate) struct Validation<'v> {
     pub(crate) features: &'v Features,
-    /// Scaled labels minus the channel means of the training part.
+    /// Labels scaled like the training labels, minus the mean of each channel over the training part.
     pub(crate) labels: Mat<f64>,
 }
 
-/// Returns the mean of each column and the centred columns.
+/// Returns the mean of each column, and the matrix with these means subtracted.
 pub(crate) fn centred(mut values: Mat<f64>) -> (Vec<f64>, Mat<f64>) {
     let rows = values.nrows() as f64;
     let mean: Vec<f64> = (0..values.ncols())
@@ -110,7 +110,7 @@ fn subtract(values: &mut Mat<f64>, mean: &[f64]) {
     }
 }
 
-/// Stacks `upper` above `lower`.
+/// Matrix with the rows of `upper`, followed by the rows of `lower`.
 pub(crate) fn stacked(upper: &Mat<f64>, lower: &Mat<f64>) -> Mat<f64> {
     let mut whole = Mat::zeros(upper.nrows() + lower.nrows(), upper.ncols());
     whole.subrows_mut(0, upper.nrows()).copy_from(upper);
@@ -120,7 +120,7 @@ pub(crate) fn stacked(upper: &Mat<f64>, lower: &Mat<f64>) -> Mat<f64> {
     whole
 }
 
-/// Concatenates the samples of two parts of the same shape.
+/// Samples of `first`, followed by the samples of `second`. Both must have the same shape per sample.
 pub(crate) fn joined(first: &Features, second: &Features) -> Features {
     first.followed_by(second).expect("samples of one shape")
 }

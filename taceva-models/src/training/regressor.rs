@@ -13,7 +13,7 @@ use crate::training::file::tensors::Raw;
 
 /// A regressor that can be stored in a model file.
 pub(crate) trait FittedModel: Regressor + Any + fmt::Debug {
-    /// Card entries for this kind of model; empty for a linear model.
+    /// Entries of the model card that depend on the kind of model; empty for a linear model.
     fn kind(&self) -> KindCard {
         KindCard::default()
     }
@@ -24,7 +24,7 @@ pub(crate) trait FittedModel: Regressor + Any + fmt::Debug {
     /// True if predictions depend on features.
     fn reads_features(&self) -> bool;
 
-    /// True if the model estimates standard deviations of its predictions.
+    /// True if the model estimates the standard deviation of each prediction.
     fn knows_deviations(&self) -> bool {
         false
     }
@@ -34,18 +34,19 @@ pub(crate) trait FittedModel: Regressor + Any + fmt::Debug {
         Ok(None)
     }
 
-    /// Probabilities of classes; `None` if the model does not estimate them.
+    /// Probability of each class for each sample; `None` if the model does not estimate probabilities.
     fn probabilities(&self, _: &Features) -> Result<Option<ClassProbabilities>, ModelError> {
         Ok(None)
     }
 
-    /// Converts this regressor of the components of `pca` to a regressor of pixels; `None` if the components must be stored with the model.
+    /// Converts this regressor, which reads principal components, to an equal regressor that reads the features before `pca`. `None` if such a
+    /// regressor must store the components.
     fn through(&self, _: &Pca) -> Result<Option<ModelRegressor>, ModelError> {
         Ok(None)
     }
 }
 
-/// Probabilities of the classes of the only channel.
+/// Probability of each class for each sample, from a classifier with a single channel.
 ///
 /// ```
 /// use taceva_models::ClassProbabilities;
@@ -57,18 +58,18 @@ pub(crate) trait FittedModel: Regressor + Any + fmt::Debug {
 pub struct ClassProbabilities {
     /// Label of each class, ascending.
     pub labels: Vec<f64>,
-    /// Probabilities, shape `[samples, labels]`.
+    /// Probabilities, shape `[samples, classes]`.
     pub shares: Vec<f64>,
 }
 
 impl ClassProbabilities {
-    /// Probabilities of each sample, in the order of the labels.
+    /// Probabilities of each sample, in the order of `labels`.
     pub fn samples(&self) -> impl Iterator<Item = &[f64]> {
         self.shares.chunks_exact(self.labels.len().max(1))
     }
 }
 
-/// Fitted model that can be stored in a file. Copies share their data.
+/// Fitted model that can be stored in a file. Clones share the same data in memory.
 #[derive(Clone)]
 pub struct ModelRegressor(Arc<dyn FittedModel>);
 
@@ -77,13 +78,13 @@ impl ModelRegressor {
         ModelRegressor(Arc::new(model))
     }
 
-    /// Casts the regressor to `T`; `None` for another kind of model.
+    /// Returns the model if its type is `T`; `None` for another type.
     pub fn get<T: Regressor + 'static>(&self) -> Option<&T> {
         let own: &dyn Any = &*self.0;
         own.downcast_ref()
     }
 
-    /// Converts a regressor of the components of `pca` to a regressor of pixels.
+    /// Converts a regressor that reads principal components to an equal regressor that reads the features before `pca`.
     ///
     /// # Errors
     /// [`ModelError`] for a network, which reads pictures, and for a plugin model, whose weights are not accessible.
@@ -100,12 +101,12 @@ impl ModelRegressor {
         self.0.tensors()
     }
 
-    /// True if predictions depend on features. A linear model whose weights are all 0 needs no frame.
+    /// True if predictions depend on features. False for a linear model whose weights are all 0, which needs no frames.
     pub(crate) fn reads_features(&self) -> bool {
         self.0.reads_features()
     }
 
-    /// True if the model estimates standard deviations of its predictions.
+    /// True if the model estimates the standard deviation of each prediction.
     pub fn knows_deviations(&self) -> bool {
         self.0.knows_deviations()
     }
@@ -117,15 +118,15 @@ impl ModelRegressor {
     /// # Units
     /// Deviations have the units of the channels.
     /// # Errors
-    /// [`ModelError`] if the shape of the features differs.
+    /// [`ModelError`] if the features do not have the shape that the model reads.
     pub fn deviations(&self, features: &Features) -> Result<Option<Vec<f64>>, ModelError> {
         self.0.deviations(features)
     }
 
-    /// Probabilities of the classes of the only channel; `None` if the model does not estimate them.
+    /// Probability of each class for each sample; `None` if the model is not a classifier that estimates probabilities.
     ///
     /// # Errors
-    /// [`ModelError`] if the shape of the features differs.
+    /// [`ModelError`] if the features do not have the shape that the model reads.
     pub fn probabilities(
         &self,
         features: &Features,
@@ -148,7 +149,7 @@ impl Regressor for ModelRegressor {
     }
 }
 
-/// Models are equal if their files would be equal.
+/// Compares the kind, channels, feature shape and stored tensors of two models.
 impl PartialEq for ModelRegressor {
     fn eq(&self, other: &ModelRegressor) -> bool {
         self.kind() == other.kind()

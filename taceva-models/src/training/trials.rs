@@ -1,4 +1,4 @@
-//! Trials of candidate settings: training and held-out samples of each trial, and the errors.
+//! Choice of a setting from held-out errors: rounds of training and held-out samples, and errors of the candidate values.
 
 use std::borrow::Cow;
 
@@ -9,22 +9,22 @@ use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, Errors, least, rmse};
 use crate::training::problem::{Problem, Validation, joined, stacked};
 
-/// Maximum number of fits per choice without a validation part.
+/// Maximum number of rounds of a choice without a validation part.
 pub(crate) const FOLDS: usize = 10;
 
-/// All samples for a choice of settings, and the rounds of the choice.
+/// Samples for a choice of settings, and the rounds in which some of them are held out.
 #[derive(Debug)]
 pub(crate) struct Trials<'a> {
     /// Features of the training part, followed by the features of the validation part.
     pub(crate) features: Cow<'a, Features>,
-    /// Labels of both parts, scaled and centred by the training part.
+    /// Labels of the samples in `features`, scaled and centred like the training labels.
     pub(crate) labels: Mat<f64>,
     by: ChosenBy,
     rounds: Vec<Round>,
     training: usize,
 }
 
-/// Training rows and held-out rows of one round.
+/// One round of a choice: rows to which candidates are fitted, and held-out rows on which they are compared.
 #[derive(Debug)]
 pub(crate) struct Round {
     pub(crate) learnt: Vec<usize>,
@@ -32,8 +32,9 @@ pub(crate) struct Round {
 }
 
 impl<'a> Trials<'a> {
-    /// Holds out the validation part if there is one. Otherwise holds out the groups of the training part in turn, and combines more than ten groups in ten
-    /// folds. Without groups, holds out ten runs of neighbouring samples. If no setting is to be chosen, only a validation part is held out.
+    /// Holds out the validation part in a single round if there is one. Otherwise holds out each group of the training part once. More than ten
+    /// groups are combined in ten folds. Without groups, ten runs of neighbouring samples are held out. If no setting is to be chosen, only a
+    /// validation part is held out.
     pub(crate) fn new(
         problem: &Problem<'a>,
         validation: Option<&Validation<'_>>,
@@ -82,7 +83,7 @@ impl<'a> Trials<'a> {
         }
     }
 
-    /// Rows to which the final model is fitted.
+    /// Rows to which the final model is fitted: the training part, and the validation part if `refit` is true.
     pub(crate) fn learnt(&self, refit: bool) -> Vec<usize> {
         if refit {
             (0..self.labels.nrows()).collect()
@@ -96,7 +97,8 @@ impl<'a> Trials<'a> {
         self.labels.nrows() > self.training
     }
 
-    /// Mean squared error of each channel at each candidate; `None` if nothing is held out. `squares` returns the summed squared errors of a round.
+    /// Mean squared error of each candidate and channel over all held-out samples; `None` if nothing is held out. `squares` returns the sum of
+    /// squared errors over the held-out samples of a round.
     pub(crate) fn errors(
         &self,
         progress: &dyn Progress,
@@ -126,7 +128,7 @@ impl<'a> Trials<'a> {
         Ok(total)
     }
 
-    /// Index of the candidate with the least error for each channel, and the record for a card. `values` contains the values of the candidates.
+    /// Index of the candidate with the least error for each channel, and the record of the choice. `values` contains the values of the candidates.
     pub(crate) fn choose(
         &self,
         problem: &Problem<'_>,
@@ -155,7 +157,7 @@ impl<'a> Trials<'a> {
     }
 }
 
-/// Combines groups in ten folds, to limit the number of fits. No group is divided.
+/// Combines groups of rows in ten folds, to limit the number of fits. No group is divided.
 pub(crate) fn folds_of(groups: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
     let mut folds = vec![Vec::new(); FOLDS];
     for (position, group) in groups.into_iter().enumerate() {
@@ -164,7 +166,7 @@ pub(crate) fn folds_of(groups: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
     folds
 }
 
-/// Ten runs of neighbouring samples. With fewer than ten samples, one run per sample.
+/// Divides row numbers into ten runs of neighbouring samples. With fewer than ten samples, every sample is a run.
 pub(crate) fn folds(samples: usize) -> Vec<Vec<usize>> {
     let count = FOLDS.min(samples);
     (0..count)
@@ -172,7 +174,7 @@ pub(crate) fn folds(samples: usize) -> Vec<Vec<usize>> {
         .collect()
 }
 
-/// Matrix of the rows `rows` of `labels`.
+/// Matrix of the given `rows` of `labels`, shape `[rows, channels]`.
 pub(crate) fn rows_of(labels: &Mat<f64>, rows: &[usize]) -> Mat<f64> {
     Mat::from_fn(rows.len(), labels.ncols(), |row, channel| {
         labels[(rows[row], channel)]

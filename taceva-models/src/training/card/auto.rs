@@ -1,62 +1,62 @@
-//! Record of an automatic choice: models tried, their errors, and reasons for leaving the race.
+//! Record of the automatic choice among models: their trials, errors and reasons for rejection.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// Number of folds of the training part.
+/// Number of folds into which an automatic choice divides the training part.
 pub(crate) const FOLDS: usize = 5;
 
-/// Record of a choice among models.
+/// Record of the automatic choice among models.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AutoCard {
-    /// Budget of work, in seconds of a core with 10⁹ multiplications per second.
+    /// Limit of the estimated work, in seconds. One second is the time in which a core computes 10⁹ multiplications.
     pub budget_s: f64,
-    /// Number of folds of the training part; 0 for a classifier, which the validation part chose.
+    /// Number of folds of the training part; 0 for a classifier, which was chosen by its errors on the validation part.
     pub folds: usize,
-    /// True if folds consist of whole groups of samples, false if they consist of runs of neighbouring samples.
+    /// True if folds consist of whole groups of samples. False if they consist of runs of neighbouring samples, or for a classifier.
     pub by_group: bool,
-    /// Models tried, in order. A network appears twice if its shortened training was not decisive.
+    /// Trials of models. A network has two trials if its shortened training was too close to the other models to decide.
     pub tried: Vec<AutoTrial>,
-    /// Models not tried.
+    /// Models that were not tried.
     pub untried: Vec<Untried>,
-    /// Chosen model.
+    /// Name of the chosen model.
     pub taken: String,
 }
 
-/// Trial of a model.
+/// Trial of one model in an automatic choice.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AutoTrial {
     /// Name of the model.
     pub model: String,
-    /// Root mean square error over the completed folds, relative to the standard deviation of labels, over the varying channels. For a classifier, the share of
-    /// wrong samples, averaged over labels.
+    /// Root mean square error relative to the standard deviation of the labels, over the completed folds. Channels with a constant label do not
+    /// count. For a classifier, the share of wrong samples of each class, averaged over classes.
     pub error: f64,
-    /// Work of the trial, in seconds of the budget.
+    /// Estimated work of the trial, in seconds as for the budget; 0 for a classifier.
     pub cost_s: f64,
-    /// Number of completed folds, counted from the first fold.
+    /// Number of folds completed in the trial, from the first fold on; 1 for a classifier.
     pub folds: usize,
-    /// Completed share of the training of a network; `None` for a complete training.
+    /// Share of the epochs in a shortened training of a network; `None` for a complete training.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub share: Option<f64>,
-    /// Reason for leaving the race; `None` if the model remained until the end.
+    /// Reason why the model was rejected; `None` if it was compared until the end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub left: Option<String>,
 }
 
-/// A model that was not tried.
+/// Model that was not tried in an automatic choice.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Untried {
     /// Name of the model.
     pub model: String,
-    /// Work of a trial on one fold, in seconds of the budget.
+    /// Estimated work of a trial on one fold, in seconds as for the budget; 0 for a classifier.
     pub cost_s: f64,
     /// Reason why the model was not tried.
     pub reason: String,
 }
 
 impl AutoCard {
-    /// Last trial of the chosen model; `None` if the record lacks the model.
+    /// Last trial of the chosen model; `None` if the record contains no such trial.
     pub fn best(&self) -> Option<&AutoTrial> {
         let mut trials = self.tried.iter();
         trials.rfind(|trial| trial.model == self.taken)

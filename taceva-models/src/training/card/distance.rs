@@ -1,10 +1,10 @@
-//! Limits of the training distance.
+//! Limits of the distance between a sample and the training part.
 
 use serde::{Deserialize, Serialize};
 
 use crate::features::FeatureDistance;
 
-/// Limits above which a sample is unlike the training part; see [`FeatureDistance`].
+/// Limits of the distance from the training part. A sample beyond a limit is unlike the training samples; see [`FeatureDistance`].
 ///
 /// ```
 /// let text = r#"{"along": 2.1, "beside": 0.015}"#;
@@ -14,9 +14,9 @@ use crate::features::FeatureDistance;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DistanceCard {
-    /// Limit along the directions of the training part, in the part's standard deviations.
+    /// Limit along the principal directions of the training features, in their standard deviations.
     pub along: f64,
-    /// Limit orthogonal to the directions, in units of the features.
+    /// Limit orthogonal to the principal directions of the training features, in the units of the features.
     pub beside: f64,
 }
 

@@ -5,27 +5,27 @@ use taceva_network::{Architecture, ConvolutionForm, LabelScale};
 
 use crate::features::Preprocessing;
 
-/// Settings of a network in a model file.
+/// Architecture, preprocessing and output of a network, as stored in a model card.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct NetworkCard {
     /// Architecture of the network.
     pub architecture: Architecture,
-    /// Preprocessing of pictures.
+    /// Preprocessing of the pictures that the network reads.
     pub preprocessing: Preprocessing,
-    /// Scale that converts outputs to labels.
+    /// Scale of each output, by which outputs are converted to labels.
     pub scale: LabelScale,
-    /// Label of each channel with a constant label in the training part; the model predicts this label. `None` for other channels, which the outputs predict in
-    /// order.
+    /// Constant training label of each channel, which is predicted without the network. `None` for other channels. The network has one output for
+    /// each of them, in the order of the channels.
     pub constant: Vec<Option<f64>>,
     /// Algorithm of convolutions for predictions.
     pub convolutions: ConvolutionForm,
     /// Instruction set of the CPU that fitted the network. Predictions with the same instruction set are bitwise equal.
     pub instructions: String,
-    /// GPU that trained the network; `None` for the CPU. Repeated training on a GPU gives other bits.
+    /// GPU that trained the network; `None` for the CPU. Repeated training on a GPU gives different weights.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gpu: Option<String>,
-    /// Classes of the outputs; `None` for outputs that are numbers.
+    /// Classes that the outputs stand for; `None` if the outputs predict numbers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub classes: Option<ClassCard>,
 }
@@ -45,6 +45,6 @@ pub struct ClassCard {
     pub labels: Vec<f64>,
     /// Divisor of the outputs before the softmax that gives probabilities.
     pub temperature: f64,
-    /// Number of samples of the validation part that set the temperature; 0 if the temperature was not set.
+    /// Number of validation samples from which the temperature was computed; 0 if it was not computed.
     pub calibrated_on: usize,
 }

@@ -1,4 +1,4 @@
-//! Plugin of a model, as stored in its card.
+//! Card entry for the plugin that fitted a model.
 
 use serde::{Deserialize, Serialize};
 use taceva_core::{EstimatorFactory, ModelError};
@@ -8,7 +8,7 @@ use taceva_core::{EstimatorFactory, ModelError};
 pub struct PluginCard {
     /// Id of the plugin.
     pub id: String,
-    /// Key of the plugin's estimator, `id/word`.
+    /// Key of the plugin's estimator: the id of the plugin, `/` and the name of the estimator.
     pub key: String,
     /// Digest of the plugin library, `sha256:…`; `None` if the plugin was linked into the program.
     pub build: Option<String>,

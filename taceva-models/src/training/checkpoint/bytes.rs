@@ -11,17 +11,18 @@ use taceva_network::{Checkpoint, NamedTensor, Summary};
 
 use super::identity::{Identity, Origin, add_numbers, hexadecimal};
 
-/// Key of the metadata.
+/// Metadata key of the card of a checkpoint.
 const KEY: &str = "taceva.checkpoint";
 /// Format version. Other versions are rejected, because they come from programs that sum in a different order.
 ///
-/// In version 3, convolutions have an algorithm. In earlier versions, all convolutions were direct.
+/// Version 3 records the algorithm of convolutions. Earlier versions always used direct convolutions.
 const FORMAT: &str = "3";
 
-/// Size limit of a file: four times the largest model, for present weights, best weights and two moments.
+/// Maximum size of a file, in bytes: four times the largest model. A checkpoint holds current weights, best weights and two optimiser moments per
+/// weight.
 pub(super) const FILE_MAX: u64 = 1 << 30;
 
-/// Format of a checkpoint, read first because it determines how to read the rest.
+/// Format version of a checkpoint, read first because it determines the layout of the other metadata.
 #[derive(Deserialize)]
 struct Format {
     format: String,
@@ -34,7 +35,7 @@ struct Card {
     format: String,
     of: Origin,
     summary: Summary,
-    /// Digest of the summary and of all tensors, in the order of their names.
+    /// SHA-256 digest of the training summary and of all tensors in the order of their names.
     digest: String,
 }
 
@@ -73,7 +74,7 @@ pub(super) fn write(
     out.flush()
 }
 
-/// Reads a checkpoint and its origin. The error describes the fault of `bytes`.
+/// Reads a checkpoint, and the origin against which its training run is checked. The error describes the fault of `bytes`.
 pub(super) fn read(bytes: &[u8]) -> Result<(Origin, Checkpoint), String> {
     if bytes.len() as u64 > FILE_MAX {
         return Err(format!("more than {FILE_MAX} bytes"));

@@ -10,48 +10,48 @@ use taceva_network::NetworkError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CheckpointError {
-    /// The file cannot be written.
+    /// The checkpoint file cannot be written.
     #[error(
         "cannot write checkpoint {}: {source}; the earlier checkpoint is unchanged, and the same training resumes from it",
         taceva_core::shown(path)
     )]
     Write {
-        /// Path of the file.
+        /// Path of the checkpoint file.
         path: PathBuf,
-        /// Error of the system.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// The training device does not return its weights.
+    /// The weights cannot be copied from the training device.
     #[error("cannot copy the weights of the training into a checkpoint: {0}")]
     Unread(NetworkError),
-    /// The file cannot be read.
+    /// The checkpoint file cannot be read.
     #[error("cannot read checkpoint {}: {source}", taceva_core::shown(path))]
     Read {
-        /// Path of the file.
+        /// Path of the checkpoint file.
         path: PathBuf,
-        /// Error of the system.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// The file is damaged.
+    /// The checkpoint file is damaged.
     #[error(
         "checkpoint {}: {problem}; remove it to start again",
         taceva_core::shown(path)
     )]
     Damaged {
-        /// Path of the file.
+        /// Path of the checkpoint file.
         path: PathBuf,
-        /// Fault of the file.
+        /// Fault of the checkpoint file.
         problem: String,
     },
-    /// The file belongs to another training run.
+    /// The checkpoint file belongs to another training run.
     #[error(
         "checkpoint {} belongs to another training run, with other {what}; remove it to start again",
         taceva_core::shown(path)
     )]
     Foreign {
-        /// Path of the file.
+        /// Path of the checkpoint file.
         path: PathBuf,
-        /// Difference between the training runs, such as `settings`.
+        /// Differing property of the training runs, such as `settings`.
         what: &'static str,
     },
 }

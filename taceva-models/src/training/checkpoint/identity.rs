@@ -5,7 +5,7 @@ use sha2::{Digest, Sha256};
 use taceva_network::GpuKind;
 use taceva_network::{Architecture, Isa, Labels, Recipe, Samples, Summary};
 
-/// Identity of a training run: all inputs on which its result depends.
+/// Identity of a training run. A checkpoint resumes only a run with an equal identity.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Identity {
     architecture: Architecture,
@@ -13,12 +13,12 @@ pub(crate) struct Identity {
     pub(super) of: Origin,
 }
 
-/// Origin of a checkpoint, without its summary.
+/// Data, rounding and device of the training run that wrote a checkpoint.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Origin {
-    /// Digest of all labels and of the preprocessed pictures.
+    /// SHA-256 digest of the labels and preprocessed pictures of the training and validation parts.
     samples: String,
-    /// True if products are rounded because fused multiply-add is not available. The rounding changes the last digits.
+    /// True if the CPU has no fused multiply-add, so that products are rounded before they are summed. This rounding changes the last digits.
     rounds_products: bool,
     /// Training device: `cpu`, or the kind of GPU. GPUs sum in no fixed order.
     device: String,
@@ -47,7 +47,7 @@ impl Identity {
         }
     }
 
-    /// Name of the difference between a checkpoint and this training run; `None` if there is no difference.
+    /// Name of the first property in which a checkpoint and this training run differ; `None` if they agree.
     pub(super) fn differs_from(&self, of: &Origin, summary: &Summary) -> Option<&'static str> {
         if self.architecture != summary.architecture {
             Some("layers, channels or sizes of pictures")
@@ -90,7 +90,7 @@ fn add_samples(digest: &mut Sha256, samples: Samples<'_>) {
     add_numbers(digest, samples.pictures);
 }
 
-/// Adds the bytes of `numbers` to the digest, in chunks of a few thousand values.
+/// Adds the bytes of `numbers` to `digest`, in chunks to limit memory.
 pub(super) fn add_numbers(digest: &mut Sha256, numbers: &[f32]) {
     for numbers in numbers.chunks(1 << 14) {
         let bytes: Vec<u8> = numbers

@@ -15,7 +15,7 @@ pub(crate) struct Stored<'a> {
     pub(crate) channels: Channels,
 }
 
-/// Loads a model from a file.
+/// Function that loads a regressor from the content of a model file.
 pub(crate) type Load = fn(&Stored<'_>) -> Result<ModelRegressor, FormatError>;
 
 impl Stored<'_> {
@@ -24,7 +24,7 @@ impl Stored<'_> {
         self.card.features.shape()
     }
 
-    /// Loads a regressor from the tensors by `load`. Adds principal components if the file contains any.
+    /// Loads a regressor with `load`. If the file contains principal components, the regressor reads features projected onto them.
     ///
     /// # Errors
     /// [`FormatError`] of `load`, or for a tensor that belongs neither to the regressor nor to the components.

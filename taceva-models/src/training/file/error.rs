@@ -10,42 +10,42 @@ use super::limits::{CARD, FILE_MAX, FORMAT, HEADER_MAX};
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FormatError {
-    /// The file is shorter than the length field of its header.
+    /// The file ends within the length field of the header.
     #[error("the file ends before its header")]
     Short,
-    /// The file is too large.
+    /// The model file is too large.
     #[error("{length} bytes, expected a model of at most {FILE_MAX}")]
     FileSize {
-        /// Length found, in bytes.
+        /// Length of the file, in bytes.
         length: u64,
     },
-    /// The header is too large.
+    /// The header of the model file is too large.
     #[error("a header of {length} bytes, expected at most {HEADER_MAX}")]
     HeaderSize {
-        /// Length found, in bytes.
+        /// Length of the header, in bytes.
         length: u64,
     },
     /// The file is not a valid safetensors file.
     #[error("not a complete safetensors file: {0}")]
     Container(#[from] safetensors::SafeTensorError),
-    /// The safetensors file contains no model.
+    /// The safetensors file is valid, but has no model card.
     #[error("no `{CARD}` in the metadata: a safetensors file, but not a model of TacEva")]
     NoCard,
-    /// The card cannot be parsed.
+    /// The model card cannot be parsed.
     #[error("the card: {0}")]
     CardText(#[from] serde_json::Error),
-    /// The card is inconsistent.
+    /// The model card contradicts itself or the tensors.
     #[error(
         "the card contradicts itself: feature sizes out of range, or choices for other channels than it lists"
     )]
     Card,
-    /// The seal does not match, because the file was changed.
+    /// The digest of the card and tensors does not match, because the file was changed.
     #[error("the model: {0}")]
     Seal(#[from] SealError),
     /// This TacEva does not support the format version.
     #[error("format {found}: this TacEva reads {FORMAT}, a newer TacEva may read both")]
     Version {
-        /// Format version of the file.
+        /// Format version of the model file.
         found: String,
     },
     /// The file has a format older than 1.0.
@@ -58,16 +58,16 @@ pub enum FormatError {
         /// Version of TacEva that wrote the file.
         taceva: String,
     },
-    /// This TacEva does not include the model.
+    /// This TacEva has no model of this name.
     #[error("fitted by `{model}`, which this TacEva does not have", model = taceva_core::shown(model))]
     NoModel {
         /// Name of the model.
         model: String,
     },
-    /// A tensor is missing.
+    /// A tensor of the model is missing in the file.
     #[error("the tensor `{name}` is missing")]
     Missing {
-        /// Name of the tensor.
+        /// Name of the missing tensor.
         name: &'static str,
     },
     /// The plugin of the model is missing.
@@ -77,47 +77,47 @@ pub enum FormatError {
     NoPlugin {
         /// Id of the plugin.
         id: String,
-        /// Key of the plugin's estimator.
+        /// Key of the plugin's estimator, which begins with the id of the plugin.
         key: String,
     },
-    /// The program was built without the library of the model.
+    /// The program was built without the library that the model needs.
     #[error(
         "fitted by `{model}`: this program was built without the feature `{feature}`: build it with `--features {feature}`", model = taceva_core::shown(model), feature = taceva_core::shown(feature)
     )]
     NoLibrary {
-        /// Name of the model.
+        /// Name of the model in the card.
         model: String,
         /// Cargo feature of the library.
         feature: String,
     },
-    /// A tensor belongs to no part of the model.
+    /// The file has a tensor that the model does not use.
     #[error("unexpected tensor `{name}`", name = taceva_core::shown(name))]
     Unexpected {
-        /// Name of the tensor.
+        /// Name of the unused tensor.
         name: String,
     },
-    /// A tensor has another type or shape than the card requires.
+    /// A tensor differs from the type or shape that the model card requires.
     #[error("tensor `{name}` is {found}, the card states {expected}")]
     Tensor {
-        /// Name of the tensor.
+        /// Name of the differing tensor.
         name: &'static str,
-        /// Type and shape found.
+        /// Type and shape of the tensor in the file.
         found: String,
-        /// Type and shape expected.
+        /// Type and shape that the model card requires.
         expected: String,
     },
-    /// A network tensor has the wrong type.
+    /// A network tensor has the wrong type of numbers.
     #[error("tensor `{name}` is {found}, expected F32 in a network", name = taceva_core::shown(name))]
     Type {
-        /// Name of the tensor.
+        /// Name of the network tensor.
         name: String,
-        /// Type found.
+        /// Type of the numbers in the file.
         found: String,
     },
-    /// The tensors do not match the network of the card.
+    /// The tensors do not match the network that the model card describes.
     #[error("the network: {0}")]
     Network(#[from] NetworkError),
-    /// Channels or numbers are invalid.
+    /// Channels in the card or numbers in the tensors are invalid.
     #[error("{0}")]
     Content(#[from] ModelError),
 }

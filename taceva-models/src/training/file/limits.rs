@@ -1,13 +1,13 @@
-//! Identification and size limits of a model file.
+//! Format version, metadata key and size limits of a model file.
 
-/// Version of the file format.
+/// Version of the model file format, `major.minor`.
 pub(crate) const FORMAT: &str = "1.0";
 
-/// Key of the card in the metadata.
+/// Metadata key of the model card in a model file.
 pub(crate) const CARD: &str = "taceva.model";
 
-/// Maximum length of the header. A card has a few kilobytes.
+/// Maximum length of the header, in bytes. A model card takes a few kilobytes.
 pub(crate) const HEADER_MAX: u64 = 1 << 20;
 
-/// Maximum size of a file. 1000 × 1000 RGB weights of ten channels are 240 MB.
+/// Maximum size of a model file, in bytes. Ten channels with weights for 1000 × 1000 RGB pixels take 240 MB.
 pub(crate) const FILE_MAX: u64 = 1 << 28;

@@ -8,9 +8,9 @@ use crate::training::file::error::FormatError;
 pub(crate) const DIRECTIONS: &str = "distance.directions";
 /// Name of the tensor with the mean of the training features.
 pub(crate) const MEAN: &str = "distance.mean";
-/// Name of the tensor with the standard deviations of the training features along the directions.
+/// Name of the tensor with the standard deviations of the training features along their principal directions.
 pub(crate) const DEVIATIONS: &str = "distance.deviations";
-/// Names of the tensors of the training distance.
+/// Names of the tensors that describe the training features, for the distance of a sample from them.
 pub(crate) const DISTANCE: [&str; 3] = [DIRECTIONS, MEAN, DEVIATIONS];
 
 /// A tensor as stored in a file.
@@ -56,7 +56,7 @@ impl<'a> Tensors<'a> {
         self.0.tensor(name).is_ok()
     }
 
-    /// Rejects every tensor outside `known`. Tensors of the training distance are allowed, because they are read separately.
+    /// Returns an error if the file has a tensor that is not in `known`. Tensors in [`DISTANCE`] are allowed, because they are read separately.
     pub(crate) fn only(&self, known: &[&str]) -> Result<(), FormatError> {
         let mut names = self.0.names().into_iter();
         match names.find(|name| !known.contains(name) && !DISTANCE.contains(name)) {
