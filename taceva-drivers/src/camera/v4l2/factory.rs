@@ -57,9 +57,9 @@ pub struct V4l2Factory {
     descriptor: Descriptor,
 }
 
-/// Default image size, pixels.
+/// Default width and height of an image, pixels.
 const USUAL: [u32; 2] = [640, 480];
-/// Maximum side of an image, pixels, as for image files.
+/// Maximum width or height of an image, pixels, as for image files.
 const SIDE_MAX: i64 = 16_384;
 
 impl V4l2Factory {
@@ -129,7 +129,7 @@ impl Factory<dyn Sensor> for V4l2Factory {
 }
 
 impl V4l2Options {
-    /// Facts that are known before the camera is opened.
+    /// Facts about the sensor that are known before the camera is opened.
     fn facts(&self) -> SensorFacts {
         let sent = FrameInfo {
             width: self.width,
@@ -176,7 +176,7 @@ fn options(args: &Args) -> V4l2Options {
     }
 }
 
-/// Cameras of the machine with root folder `root`, sorted by device file.
+/// Cameras that the system with root folder `root` lists, sorted by the names of their device files.
 fn cameras_in(root: &Path) -> Vec<Found> {
     let class = root.join("sys/class/video4linux");
     let entries = fs::read_dir(&class).into_iter().flatten();
@@ -214,7 +214,7 @@ fn cameras_in(root: &Path) -> Vec<Found> {
     found.collect()
 }
 
-/// Device path that remains valid after replugging; `None` if the system provides none.
+/// Device path of the camera `name` that remains valid after replugging; `None` if the system provides none.
 fn stable_name(root: &Path, name: &str) -> Option<String> {
     let folder = root.join("dev/v4l/by-id");
     let mut links: Vec<_> = fs::read_dir(&folder).ok()?.flatten().collect();
