@@ -1,4 +1,4 @@
-//! Thread that reads the images of a camera.
+//! Thread that reads the images of a local camera and posts them to a mailbox.
 
 use std::io;
 use std::sync::Arc;
@@ -16,9 +16,9 @@ use crate::link::{Mailbox, monotonic};
 #[derive(Clone, Debug)]
 pub(super) struct Picture {
     pub(super) bytes: Arc<[u8]>,
-    /// Kernel time stamp on the monotonic clock; `None` if the kernel uses another clock.
+    /// Kernel time stamp on the monotonic clock; `None` if the kernel uses another clock or the stamp is later than the arrival.
     pub(super) taken: Option<Duration>,
-    /// Total number of images marked as damaged.
+    /// Number of images marked as damaged since the stream was started.
     pub(super) damaged: u64,
 }
 
@@ -29,11 +29,11 @@ pub(super) struct Reader {
     thread: Option<JoinHandle<Camera>>,
 }
 
-/// Interval at which the thread checks for its end.
+/// Interval at which the thread checks the flag that ends it.
 const LOOK: Duration = Duration::from_millis(50);
 
 impl Reader {
-    /// Posts every image of `stream`, and counts missed images.
+    /// Starts a thread that posts every undamaged image of `stream` to `posting`, with the number of missed images.
     pub(super) fn start(stream: Stream, posting: &Arc<Mailbox<Picture>>) -> io::Result<Reader> {
         let is_over = Arc::new(AtomicBool::new(false));
         let (over, posting) = (Arc::clone(&is_over), Arc::clone(posting));
