@@ -1,4 +1,4 @@
-//! Arguments for the speed limit, stopping and repeatability of a robot, which its protocol does not report.
+//! Arguments for the speed limit, stopping and repeatability of a robot. Its protocol does not report them.
 
 use taceva_core::{ArgSpec, ArgValue, Args, Millimetre, RobotFacts, Speed, SpeedError};
 
@@ -15,7 +15,7 @@ pub(crate) fn speed_limit(least: f64, usual: f64) -> ArgSpec {
 /// Speed limit from an argument of [`speed_limit`].
 ///
 /// # Errors
-/// [`SpeedError`] for an invalid speed, which the range of the argument rules out.
+/// [`SpeedError`] for an invalid speed. The range of the argument excludes invalid speeds.
 pub(crate) fn speed_max(args: &Args) -> Result<Speed, SpeedError> {
     Speed::try_new(args.number(SPEED_MAX))
 }

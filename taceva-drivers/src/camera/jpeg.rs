@@ -50,7 +50,7 @@ fn has_tables(picture: &[u8]) -> Option<bool> {
 #[derive(Clone, Debug)]
 pub(super) struct Pictures {
     driver: DriverKey,
-    /// Format of the first image, which all other images must share.
+    /// Size and pixel format of the first image, which all other images must share.
     sent: FrameInfo,
     crop: Crop,
     /// Buffer for an image before the crop; empty if no crop is needed.

@@ -38,7 +38,7 @@ pub(super) struct Record {
 pub(super) const RECORD: usize = 36;
 
 impl Record {
-    /// Parses the records of a datagram. Empty if its length is not a multiple of [`RECORD`].
+    /// Parses the records of a datagram. The result is empty if the datagram length is not a multiple of [`RECORD`].
     pub(super) fn all(datagram: &[u8]) -> Vec<Record> {
         let records = datagram.chunks_exact(RECORD);
         if !records.remainder().is_empty() {

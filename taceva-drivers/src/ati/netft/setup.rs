@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::page::{PAGE, Page, PageError};
 use crate::text::shown;
 
-/// Settings of a box from its configuration page.
+/// Settings of a Net F/T box, read from its configuration page.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Setup {
     /// Model of the box; empty if the page lacks it. `serial` is the serial number of the calibrated transducer.
@@ -89,7 +89,7 @@ impl Setup {
         self.ranges_n.map(least)
     }
 
-    /// Measuring range of each force, N; `None` if unknown. In a tool frame, all forces have the smallest range.
+    /// Measuring range of each force, N; `None` if unknown. In a tool frame, each force has the smallest of the three ranges.
     pub(super) fn ranges_n(&self) -> Option<[f64; 3]> {
         let ranges_n = self.ranges_n?;
         Some(match self.is_turned() {

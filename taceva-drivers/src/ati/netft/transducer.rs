@@ -27,7 +27,7 @@ pub(super) struct NetftOptions {
     pub(super) expected: Expected,
 }
 
-/// A connected transducer.
+/// Open connection to a force transducer through a Net F/T box.
 #[derive(Debug)]
 pub(super) struct Transducer {
     options: NetftOptions,

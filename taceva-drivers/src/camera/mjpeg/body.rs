@@ -58,7 +58,7 @@ impl Body {
         }
     }
 
-    /// True once the last chunk has arrived.
+    /// True once the last chunk has arrived; always false for a body without chunks.
     pub(super) fn has_ended(&self) -> bool {
         matches!(self, Body::Chunked(chunks) if chunks.has_ended)
     }

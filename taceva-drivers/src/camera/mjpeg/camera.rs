@@ -31,7 +31,7 @@ pub(super) struct Camera {
     is_running: bool,
     /// Number that the mailbox gave to the image returned last.
     last: u64,
-    /// Image that was returned last; `None` before the first.
+    /// Image file of the last capture; `None` before the first capture and after a failed capture.
     given: Option<Arc<[u8]>>,
     /// Number of images that newer images replaced before a capture read them.
     missed: u64,

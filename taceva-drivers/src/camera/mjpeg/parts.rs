@@ -14,7 +14,7 @@ pub(super) struct Parts {
     within: Within,
     /// Offset in `waiting` up to which the end of the current part was searched.
     searched: usize,
-    /// Parts dropped because their length was wrong.
+    /// Number of image parts that were dropped because their stated length was wrong.
     broken: u64,
     /// Server time in the head of the current part, s; `None` if the head has none.
     stamped_s: Option<f64>,
@@ -31,7 +31,7 @@ enum Within {
     Picture(Option<usize>),
 }
 
-/// Error of a body that is not a stream of images.
+/// Error: the multipart body is not a stream of images.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(super) enum PartError {
     #[error("a picture of {found} bytes, expected at most {PICTURE_MAX}")]
@@ -75,7 +75,7 @@ impl Parts {
         self.within != Within::Between
     }
 
-    /// Number of parts dropped because their length was wrong.
+    /// Number of image parts that were dropped because their stated length was wrong.
     pub(super) fn broken(&self) -> u64 {
         self.broken
     }

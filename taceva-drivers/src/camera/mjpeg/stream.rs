@@ -23,7 +23,7 @@ pub(super) struct Picture {
     pub(super) began: Duration,
     /// Server time of the image, s; `None` if the server writes none.
     pub(super) stamped_s: Option<f64>,
-    /// Number of parts with a wrong length since the connection was opened.
+    /// Number of image parts with a wrong stated length since the connection was opened.
     pub(super) broken: u64,
 }
 

@@ -11,7 +11,7 @@ use crate::text::shown;
 pub(super) struct Url {
     pub(super) host: String,
     pub(super) port: u16,
-    /// Path and query, beginning with `/`.
+    /// Path and query of the URL, beginning with `/`.
     pub(super) path: String,
 }
 

@@ -26,7 +26,7 @@ pub(super) struct V4l2Options {
     pub(super) device: String,
     pub(super) width: u32,
     pub(super) height: u32,
-    /// Accepted pixel formats, best first.
+    /// Accepted pixel formats, in order of preference.
     pub(super) pixels: Vec<FourCc>,
     pub(super) rate_hz: Option<f64>,
     pub(super) crop: Crop,
@@ -160,7 +160,7 @@ impl V4l2Options {
     }
 }
 
-/// Captures the first undamaged image and stops the stream.
+/// Captures images until one is undamaged and stops the stream. Returns the camera and that image. Fails if none arrives within [`FIRST`].
 fn first_picture(camera: Camera) -> Result<(Camera, Vec<u8>), DriverError> {
     let mut stream = Stream::start(camera).map_err(refused(OPEN))?;
     let began = crate::link::monotonic();

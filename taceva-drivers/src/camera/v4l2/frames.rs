@@ -18,7 +18,7 @@ pub(super) enum Frames {
         given: GivenFormat,
         matrix: Matrix,
         sent: FrameInfo,
-        /// Buffer for one converted row, before the crop.
+        /// Buffer for one row of RGB pixels, before the crop.
         row: Vec<u8>,
     },
     /// Converter for JPEG files.

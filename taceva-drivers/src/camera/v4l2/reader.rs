@@ -12,7 +12,7 @@ use super::error::kind_of;
 use crate::link::mailbox::Ending;
 use crate::link::{Mailbox, monotonic};
 
-/// Image as the camera sent it.
+/// Image as the camera sent it, with its time stamp.
 #[derive(Clone, Debug)]
 pub(super) struct Picture {
     pub(super) bytes: Arc<[u8]>,
@@ -22,7 +22,7 @@ pub(super) struct Picture {
     pub(super) damaged: u64,
 }
 
-/// Thread that reads images until this value is dropped or the camera is gone.
+/// Thread that reads images until it is stopped, this value is dropped or the camera is gone.
 #[derive(Debug)]
 pub(super) struct Reader {
     is_over: Arc<AtomicBool>,

@@ -64,7 +64,7 @@ impl Stream {
             .map_err(|source| V4l2Error::of("return a buffer", source))
     }
 
-    /// Waits up to `patience` for the next image; `None` if none arrives.
+    /// Waits up to `patience` for the next image; `None` if none arrives in that time, or if a signal interrupts the wait.
     ///
     /// # Errors
     /// [`V4l2Error::Gone`] if the camera was unplugged.
