@@ -14,7 +14,8 @@ pub(crate) fn optional_number(args: &Args, key: &str) -> Option<f64> {
     args.get(key).and_then(ArgValue::as_number)
 }
 
-/// Argument for a device fact that no protocol reports. Its value is from a data sheet or a measurement; without a value the fact is unknown.
+/// Optional argument for a fact that no device protocol reports. Its value is from a data sheet or a measurement. Without a value the fact is
+/// unknown.
 #[cfg(any(
     feature = "gcode",
     feature = "hid",

@@ -1,4 +1,4 @@
-//! Sensor with its own clock, used with a simulated bench.
+//! Adapter that puts a real sensor on the clock of a simulated bench.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ pub struct OnBench {
 }
 
 impl OnBench {
-    /// Wraps `sensor` to use the clock of `bench`.
+    /// Wraps `sensor`, so that its frames have time stamps on the clock of `bench`.
     pub fn new(sensor: Box<dyn Sensor>, bench: Arc<dyn SimulatedBench>) -> OnBench {
         OnBench {
             sensor,
@@ -89,7 +89,7 @@ mod tests {
         format: PixelFormat::Gray8,
     };
 
-    /// Sensor that delivers frames at the remaining times.
+    /// Sensor whose next frames have the listed time stamps, ms.
     struct Timed(Vec<u64>);
 
     impl Sensor for Timed {
@@ -103,7 +103,7 @@ mod tests {
         }
     }
 
-    /// Sensor that numbers its frames from 40 and sends each as a file.
+    /// Sensor that numbers its frames from 41 and provides each frame as a file.
     #[derive(Default)]
     struct Sending {
         frames: u64,

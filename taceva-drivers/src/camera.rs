@@ -1,4 +1,4 @@
-//! Camera drivers, by standard.
+//! Camera drivers: one module for each interface standard.
 
 mod crop;
 mod jpeg;
@@ -13,5 +13,5 @@ mod preset;
 ))]
 pub mod v4l2;
 
-/// Operation name of a failed capture, for errors.
+/// Operation that the error of a failed capture names.
 const CAPTURE: &str = "capture a frame";

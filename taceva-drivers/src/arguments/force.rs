@@ -1,15 +1,15 @@
-//! Arguments for the range and the signal of a force transducer, which its protocol does not report.
+//! Arguments for the range, resolution and noise of a force transducer. Its protocol does not report them.
 
 use taceva_core::{ArgSpec, Args, ForceFacts, Newton};
 
 use super::{fact, optional_number};
 
-/// Key of the measuring range, N.
+/// Key of the argument for the smallest measuring range of the forces, N.
 pub(crate) const FORCE_MAX: &str = "force_max_n";
 const RESOLUTION: &str = "resolution_n";
 const NOISE: &str = "noise_n";
 
-/// Arguments for facts that no transducer protocol reports.
+/// Arguments for the range, resolution and noise of a transducer, N. No transducer protocol reports them.
 pub(crate) fn force_facts() -> [ArgSpec; 3] {
     [
         fact(
@@ -30,7 +30,7 @@ pub(crate) fn force_facts() -> [ArgSpec; 3] {
     ]
 }
 
-/// Sets the facts from the arguments of [`force_facts`].
+/// Sets range, resolution and noise in `facts` from the arguments of [`force_facts`]. An absent argument sets `None`.
 pub(crate) fn add_facts_of_force(args: &Args, facts: &mut ForceFacts) {
     let force = |key| optional_number(args, key).map(Newton);
     facts.force_max = force(FORCE_MAX);

@@ -2,7 +2,7 @@
 
 use taceva_core::{ArgSpec, ArgValue, Args};
 
-/// Argument for a network port with default `usual`.
+/// Argument `key` for a network port; its default is `usual`.
 pub(crate) fn port(key: &str, usual: i64, help: &str) -> ArgSpec {
     ArgSpec::whole(key, 1, 65_535)
         .default(ArgValue::Whole(usual))

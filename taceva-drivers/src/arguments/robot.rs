@@ -1,10 +1,10 @@
-//! Arguments for the speed limit, stopping and repeatability of a robot, which its protocol does not report.
+//! Arguments for the speed limit, stopping and repeatability of a robot. Its protocol does not report them.
 
 use taceva_core::{ArgSpec, ArgValue, Args, Millimetre, RobotFacts, Speed, SpeedError};
 
 use super::{fact, optional_number};
 
-/// Argument for the speed limit of a robot, mm/s: at least `least`, `usual` by default.
+/// Argument for the speed limit of a robot, mm/s. `least` is its minimum, `usual` its default.
 pub(crate) fn speed_limit(least: f64, usual: f64) -> ArgSpec {
     ArgSpec::number(SPEED_MAX, least, SPEED_LIMIT_MM_S)
         .default(ArgValue::Number(usual))
@@ -15,12 +15,12 @@ pub(crate) fn speed_limit(least: f64, usual: f64) -> ArgSpec {
 /// Speed limit from an argument of [`speed_limit`].
 ///
 /// # Errors
-/// [`SpeedError`] for an invalid speed, which the range of the argument rules out.
+/// [`SpeedError`] for an invalid speed. The range of the argument excludes invalid speeds.
 pub(crate) fn speed_max(args: &Args) -> Result<Speed, SpeedError> {
     Speed::try_new(args.number(SPEED_MAX))
 }
 
-/// Arguments for facts that no robot protocol reports.
+/// Arguments for the stopping time, ms, and the repeatability, mm. No robot protocol reports them.
 pub(crate) fn robot_facts() -> [ArgSpec; 2] {
     [
         fact(
@@ -36,7 +36,7 @@ pub(crate) fn robot_facts() -> [ArgSpec; 2] {
     ]
 }
 
-/// Argument for the deceleration, mm/s², of robots whose driver does not set it.
+/// Argument for the deceleration after a halt, mm/s², for robots whose driver cannot set the deceleration.
 #[cfg(any(feature = "gcode", feature = "xarm"))]
 pub(crate) fn deceleration() -> ArgSpec {
     fact(
@@ -58,7 +58,7 @@ pub(crate) fn facts_of_robot(args: &Args) -> RobotFacts {
 }
 
 const SPEED_MAX: &str = "speed_max_mm_s";
-/// Maximum of the speed limit, mm/s: the reduced speed of industrial arms near people.
+/// Largest speed limit that the argument accepts, mm/s: the reduced speed of industrial arms near people.
 const SPEED_LIMIT_MM_S: f64 = 250.0;
 const DECELERATION: &str = "deceleration_mm_s2";
 const STOP: &str = "stop_ms";

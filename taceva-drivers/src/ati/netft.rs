@@ -1,4 +1,4 @@
-//! `ati/netft`: six-axis transducers behind a Net F/T box, by its raw data transfer over UDP.
+//! `ati/netft`: six-axis transducers that a Net F/T box connects, read by its raw data transfer (RDT) over UDP.
 
 mod calibration;
 mod factory;

@@ -1,8 +1,8 @@
-//! Crop of an image at its sides.
+//! Crop that removes the borders of an image.
 
 use taceva_core::FrameInfo;
 
-/// Symmetric crop of an image.
+/// Crop that removes equal borders on the left and right, and equal borders at the top and bottom.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Crop {
     /// Number of columns removed on the left, and also on the right.
@@ -14,7 +14,7 @@ impl Crop {
     /// Crop that removes nothing.
     pub(super) const NONE: Crop = Crop { left: 0, top: 0 };
 
-    /// Crop of `share` of the width and height at each side, rounded down to whole pixels.
+    /// Crop that removes the fraction `share` of the width or height at each side, rounded down to whole pixels.
     pub(super) fn border(width: u32, height: u32, share: f64) -> Crop {
         #[expect(
             clippy::cast_possible_truncation,
@@ -28,7 +28,7 @@ impl Crop {
         }
     }
 
-    /// Size and format of the image after the crop.
+    /// Size and format of an image of `whole` after the crop.
     pub(super) fn of(self, whole: FrameInfo) -> FrameInfo {
         FrameInfo {
             width: whole.width.saturating_sub(2 * self.left),
@@ -37,7 +37,7 @@ impl Crop {
         }
     }
 
-    /// Copies the crop of `pixels`, an image of `whole`, to `into`.
+    /// Copies the pixels that the crop keeps to `into`. `pixels` is an image with the size and format `whole`.
     pub(super) fn copy(self, whole: FrameInfo, pixels: &[u8], into: &mut [u8]) {
         let bytes = whole.format.samples() * whole.format.bytes_per_sample();
         let size = |pixels: u32| usize::try_from(pixels).unwrap_or(usize::MAX);

@@ -1,4 +1,4 @@
-//! Images that a camera sends as JPEG or PNG files.
+//! Conversion of JPEG and PNG files from a camera to frames.
 
 use std::borrow::Cow;
 
@@ -8,14 +8,14 @@ use super::CAPTURE;
 use super::crop::Crop;
 use crate::source::{Mismatch, decode, frame_info};
 
-/// Removes trailing zeros and line ends, which some cameras append.
+/// Image file without the zero bytes and line ends that some cameras append.
 pub(super) fn whole(picture: &[u8]) -> &[u8] {
     let padding = |byte: &&u8| matches!(**byte, 0 | b'\r' | b'\n');
     let behind = picture.iter().rev().take_while(padding).count();
     &picture[..picture.len() - behind]
 }
 
-/// AVI1 segment, which makes a decoder use the standard Huffman tables (ITU-T T.81, K.3).
+/// JPEG segment `AVI1`. A decoder then uses the standard Huffman tables (ITU-T T.81, K.3).
 const USUAL_TABLES: [u8; 9] = [0xff, 0xe0, 0x00, 0x07, b'A', b'V', b'I', b'1', 0x00];
 const BEGIN: [u8; 2] = [0xff, 0xd8];
 const TABLES_OF_CODES: u8 = 0xc4;
@@ -30,7 +30,7 @@ fn completed(picture: &[u8]) -> Cow<'_, [u8]> {
     Cow::Owned([&BEGIN[..], &USUAL_TABLES, behind].concat())
 }
 
-/// True if a JPEG file has a Huffman table before its scan; `None` if it is not JPEG.
+/// True if a JPEG file has a Huffman table before its image data; `None` if the bytes are not a valid JPEG file.
 fn has_tables(picture: &[u8]) -> Option<bool> {
     let mut rest = picture.strip_prefix(&BEGIN)?;
     loop {
@@ -46,19 +46,19 @@ fn has_tables(picture: &[u8]) -> Option<bool> {
     }
 }
 
-/// Converter of camera images to frames.
+/// Converter from JPEG or PNG files of a camera to frames.
 #[derive(Clone, Debug)]
 pub(super) struct Pictures {
     driver: DriverKey,
-    /// Format of the first image, which all other images must share.
+    /// Size and pixel format of the first image, which all other images must share.
     sent: FrameInfo,
     crop: Crop,
-    /// Buffer for a whole image if it is cropped; empty otherwise.
+    /// Buffer for an image before the crop; empty if no crop is needed.
     room: Vec<u8>,
 }
 
 impl Pictures {
-    /// Creates a converter for images like `first`.
+    /// Creates a converter for images with the size and format of `first`.
     ///
     /// # Errors
     /// `Protocol` if `first` is not an image.
@@ -82,23 +82,23 @@ impl Pictures {
         })
     }
 
-    /// Format of the images from the camera.
+    /// Size and format of the images from the camera, before the crop.
     pub(super) fn sent(&self) -> FrameInfo {
         self.sent
     }
 
-    /// Format of the converted frames.
+    /// Size and format of the converted frames, after the crop.
     pub(super) fn info(&self) -> FrameInfo {
         self.crop.of(self.sent)
     }
 
-    /// Unmodified file, if it decodes to the frame. `None` if the image is cropped or lacks Huffman tables.
+    /// Image file without padding, if it decodes to exactly the frame. `None` if the image is cropped or lacks Huffman tables.
     pub(super) fn as_sent<'a>(&self, picture: &'a [u8]) -> Option<&'a [u8]> {
         let is_frame = self.room.is_empty() && has_tables(picture) != Some(false);
         is_frame.then(|| whole(picture))
     }
 
-    /// Decodes an image into a frame of [`info`](Pictures::info). The error includes `losses`, a description of earlier losses.
+    /// Decodes an image into a frame of [`info`](Pictures::info). The error for a damaged image includes `losses`, a description of earlier losses.
     ///
     /// # Errors
     /// `Protocol` for an image that is damaged or has another size.
@@ -141,7 +141,7 @@ mod tests {
 
     const DRIVER: DriverKey = DriverKey::fixed("test/camera");
 
-    /// JPEG file of 24 by 16 pixels that differ.
+    /// JPEG file of 24 by 16 pixels with different values.
     fn picture() -> Vec<u8> {
         let pixels: Vec<u8> = (0..24_u32 * 16 * 3)
             .map(|index| u8::try_from(index * 7 % 251).expect("below 251"))
@@ -161,7 +161,7 @@ mod tests {
         Ok(pixels)
     }
 
-    /// Removes the Huffman tables, which many cameras omit.
+    /// JPEG file without its Huffman tables, which many cameras omit.
     fn without_tables(file: &[u8]) -> Vec<u8> {
         let mut kept = BEGIN.to_vec();
         let mut at = 2;

@@ -1,4 +1,4 @@
-//! `camera/mjpeg`: cameras that stream images over HTTP in one response (`multipart/x-mixed-replace`).
+//! `camera/mjpeg`: cameras that stream images in one HTTP response of type `multipart/x-mixed-replace`.
 
 mod body;
 mod camera;

@@ -7,25 +7,25 @@ use taceva_core::{ArgSpec, DriverKey};
 
 use super::crop::Crop;
 
-/// Preset of one sensor's camera. The file of the preset cites the source of each number.
+/// Known settings of the camera in one commercial sensor. The file of the preset cites the source of each number.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Preset {
-    /// Name of the preset and of its file.
+    /// Name of the preset and stem of its file.
     #[serde(skip)]
     pub(super) name: &'static str,
     pub(super) title: String,
     /// Key of the driver that opens this camera.
     driver: String,
-    /// Prefix of the camera's kernel name; `None` for a network camera.
+    /// First letters of the camera's name in the kernel; `None` for a network camera.
     pub(super) card: Option<String>,
-    /// Pixel format, if the camera has only one.
+    /// Pixel format, if the camera has only one; `None` otherwise.
     pub(super) pixels: Option<String>,
     /// Width and height of the camera's images, pixels.
     pub(super) width: u32,
     pub(super) height: u32,
     pub(super) rate_hz: f64,
-    /// Share of width and height that is cropped at each side.
+    /// Fraction of the width and of the height that is cropped at each side.
     border: f64,
     /// True if the zoom control of the camera sets LEDs of the sensor.
     #[serde(default)]
@@ -47,18 +47,18 @@ static PRESETS: LazyLock<Vec<Preset>> = LazyLock::new(|| {
 });
 
 impl Preset {
-    /// Presets of `driver`.
+    /// Presets whose cameras `driver` opens.
     pub(super) fn of(driver: &DriverKey) -> impl Iterator<Item = &'static Preset> {
         let driver = driver.to_string();
         PRESETS.iter().filter(move |preset| preset.driver == driver)
     }
 
-    /// Preset `name` of `driver`; `None` if there is none.
+    /// Preset with this `name` among the presets of `driver`; `None` if there is none.
     pub(super) fn named(driver: &DriverKey, name: &str) -> Option<&'static Preset> {
         Preset::of(driver).find(|preset| preset.name == name)
     }
 
-    /// Argument that selects a preset.
+    /// Driver argument that selects one of the presets of `driver`.
     pub(super) fn argument(driver: &DriverKey) -> ArgSpec {
         let titles: Vec<&str> = Preset::of(driver)
             .map(|preset| preset.title.as_str())
@@ -72,7 +72,7 @@ impl Preset {
             .changes_facts()
     }
 
-    /// Crop for images of this size from the camera.
+    /// Crop of this preset for a camera image of `width` by `height` pixels.
     pub(super) fn crop(&self, width: u32, height: u32) -> Crop {
         Crop::border(width, height, self.border)
     }

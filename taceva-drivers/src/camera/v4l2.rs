@@ -1,4 +1,4 @@
-//! `camera/v4l2`: local cameras, by the kernel's own interface.
+//! `camera/v4l2`: local cameras, through the kernel interface Video4Linux.
 
 mod camera;
 mod error;
@@ -28,7 +28,7 @@ taceva_core::inventory::submit! {
     }
 }
 
-/// True for the first device file of a camera. Further files give no images. An old system does not number the files.
+/// True for the first device file of a camera. Further files give no images. Also true if the system does not number the files.
 fn is_first_file(machine: &Machine, name: &str) -> bool {
     let index = machine.text(&format!("sys/class/video4linux/{name}/index"));
     index.is_none_or(|index| index == "0")

@@ -1,25 +1,25 @@
-//! Force and torque per count, from the units and counts of a box.
+//! Calibration of a Net F/T box: the force and the torque of one raw count.
 
 use std::collections::BTreeMap;
 
 use super::page::{Page, PageError, number};
 
-/// Force per count, N, and torque per count, N·mm.
+/// Force and torque of one raw count of a Net F/T box, N and N·mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Calibration {
     pub(super) force_n: f64,
     pub(super) torque_nmm: f64,
-    /// Value of the force unit of the page, N.
+    /// Force unit of the configuration page, in newtons: 4.448 for `lbf`.
     pub(super) force_unit_n: f64,
-    /// Units of the page.
+    /// Force unit of the configuration page.
     force_unit: Unit,
     torque_unit: Unit,
 }
 
-/// Name of a unit, and its value in N or N·mm.
+/// Name of a unit, and its size in N or N·mm.
 type Unit = (&'static str, f64);
 
-/// Force units of the box, each with its value in N.
+/// Force units that a Net F/T box can use, each with its size in N.
 const FORCES: [Unit; 6] = [
     ("N", 1.0),
     ("kN", 1_000.0),
@@ -28,7 +28,7 @@ const FORCES: [Unit; 6] = [
     ("kgf", 9.806_65),
     ("gf", 0.009_806_65),
 ];
-/// Torque units of the box, each with its value in N·mm.
+/// Torque units that a Net F/T box can use, each with its size in N·mm.
 const TORQUES: [Unit; 6] = [
     ("N-m", 1_000.0),
     ("N-mm", 1.0),
@@ -37,11 +37,11 @@ const TORQUES: [Unit; 6] = [
     ("lbf-ft", 1_355.817_948_331_4),
     ("kgf-cm", 98.066_5),
 ];
-/// Signs that may separate the two parts of a torque unit.
+/// Characters that may separate the two parts of a torque unit, such as `-` in `N-m`.
 const BETWEEN: [char; 7] = ['-', '.', '·', '⋅', '•', '*', ' '];
 
 impl Calibration {
-    /// Reads the calibration from `page`.
+    /// Reads the calibration from the configuration page of a box.
     pub(super) fn read(page: &Page) -> Result<Calibration, PageError> {
         let force_unit = unit(
             page,
@@ -66,7 +66,7 @@ impl Calibration {
         })
     }
 
-    /// Units of the box as settings of a recording, each with the value by which the driver converted it.
+    /// Settings of a recording: the force and torque units of the box, with the factor of each conversion by the driver.
     pub(super) fn settings(&self) -> BTreeMap<String, String> {
         let stated = |(name, worth): Unit, stored: &str| match name == stored.replace('·', "-") {
             true => name.to_owned(),
@@ -79,14 +79,14 @@ impl Calibration {
     }
 }
 
-/// Counts per unit in the entry `key`.
+/// Counts per force or torque unit, from the entry `key` of the configuration page.
 fn counts(page: &Page, key: &'static str) -> Result<f64, PageError> {
     let found = page.entry(key);
     let count = number(&found).filter(|count| count.is_normal() && *count > 0.0);
     count.ok_or_else(|| PageError::entry(key, "a number of counts above 0", &found))
 }
 
-/// Unit in the entry `key`. Ignores case and signs between the parts, because no two of `units` differ only by these.
+/// Unit in the entry `key` of the configuration page. The comparison with `units` ignores case and one separator, as in `N-m`.
 fn unit(
     page: &Page,
     key: &'static str,

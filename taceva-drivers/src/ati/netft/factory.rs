@@ -17,12 +17,12 @@ submit_builtin!(dyn ForceTransducer, || Ok(Box::new(NetftFactory::new()?)));
 /// Opens ATI's Net F/T boxes, and other boxes that send their records (RDT): `ati/netft:host=192.168.1.1`.
 ///
 /// # The physical contract
-/// - Forces and torques are in the transducer's own axes, in N and N·mm. The value of a count is read at open from the page `/netftapi2.xml` of the
-///   box.
+/// - Forces and torques are in the transducer's own axes, in N and N·mm. The force and torque of one raw count are read at open from the page
+///   `/netftapi2.xml` of the box.
 /// - A box with a tool frame is refused unless `frame=tool` selects readings in that frame. A box is also refused if its rate differs from a stated
-///   `rate`, or its range is below a stated `force_max_n`. Without `force_max_n` the range of each force on the page applies.
-/// - Units with their conversion, frame, low pass, rate, range, bias and serial number are settings that a recording keeps. The delay of a low
-///   pass is a warning, and so is a page that states no low pass.
+///   `rate`, or its smallest range is below a stated `force_max_n`. Without `force_max_n` each force has its range from the page.
+/// - Units with their conversion, frame, low pass, rate, range, bias and serial number are settings that a recording keeps. The driver warns of the
+///   delay of a low pass, and of a page that states no low pass.
 /// - A reading is the newest record received. Datagrams of other senders are ignored. Torn, duplicate and overtaken records are dropped.
 /// - A saturated gauge is `OutOfRange`; every other status except a latched threshold is `DeviceFault`, with its bits by name. A latched threshold is
 ///   a warning, since readings stay valid.
@@ -48,7 +48,7 @@ impl NetftFactory {
     /// Creates the factory.
     ///
     /// # Errors
-    /// [`DescriptorError`] if the descriptor is inconsistent, which tests rule out.
+    /// [`DescriptorError`] if the built-in descriptor is inconsistent. Tests exclude this case.
     pub fn new() -> Result<NetftFactory, DescriptorError> {
         let arguments = [
             ArgSpec::text("host").help("name or address of the box"),

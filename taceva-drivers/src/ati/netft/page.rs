@@ -1,4 +1,4 @@
-//! Configuration page of a box: read over HTTP, with its entries as text.
+//! Configuration page of a Net F/T box: the HTTP request for it, and its entries as text.
 
 use std::io::{Read, Write};
 use std::net::SocketAddr;
@@ -10,11 +10,11 @@ use thiserror::Error;
 use crate::link::{LinkError, connect};
 use crate::text::shown;
 
-/// Complete configuration page.
+/// Text of a configuration page that is not truncated.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Page(String);
 
-/// Failure to read the page or one of its entries.
+/// Failure to read the configuration page of a box or one of its entries.
 #[derive(Debug, Error)]
 pub(super) enum PageError {
     #[error(transparent)]
@@ -37,7 +37,7 @@ pub(super) enum PageError {
 }
 
 impl PageError {
-    /// Kind of the failure.
+    /// Kind of the driver error for this failure.
     pub(super) fn kind(&self) -> ErrorKind {
         match self {
             PageError::Link(error) => error.kind(),
@@ -47,7 +47,7 @@ impl PageError {
         }
     }
 
-    /// Error of the entry `key` with the content `found`.
+    /// Error for the entry `key` of the page, whose content is `found`. The error keeps the first 40 characters.
     pub(super) fn entry(key: &'static str, expected: &'static str, found: &str) -> PageError {
         PageError::Entry {
             key,
@@ -58,12 +58,12 @@ impl PageError {
 }
 
 pub(super) const PAGE: &str = "/netftapi2.xml";
-/// Maximum length of the page, bytes.
+/// Maximum length of the configuration page, bytes.
 const PAGE_MAX: u64 = 256 << 10;
 const PATIENCE: Duration = Duration::from_secs(3);
 
 impl Page {
-    /// Reads the page of the box at `host`.
+    /// Reads the configuration page of the box at `host` over HTTP on `port`.
     pub(super) fn ask(host: &str, port: u16) -> Result<Page, PageError> {
         let (mut stream, address) = connect(host, port)?;
         let failed = |source| PageError::Unread { address, source };
@@ -100,7 +100,7 @@ impl Page {
         }
     }
 
-    /// Trimmed content of the first element `key`, with entities decoded; empty without this element.
+    /// Trimmed text of the first XML element `key`, with entities decoded. Empty if the page lacks the element.
     pub(super) fn entry(&self, key: &str) -> String {
         let between = self
             .0
@@ -109,10 +109,10 @@ impl Page {
         between.map_or_else(String::new, |(value, _)| decoded(value.trim()))
     }
 
-    /// Number in the element `key`; `None` without this element.
+    /// Number in the XML element `key`; `None` if the page lacks the element or the element is empty.
     ///
     /// # Errors
-    /// [`PageError::Entry`] for anything but a number.
+    /// [`PageError::Entry`] for a text that is not a number.
     pub(super) fn number(&self, key: &'static str) -> Result<Option<f64>, PageError> {
         let found = self.entry(key);
         match found.as_str() {
@@ -123,10 +123,10 @@ impl Page {
         }
     }
 
-    /// Six numbers of the element `key`, or of `key0` to `key5`; `None` without these elements.
+    /// Six numbers in the XML element `key`, or in the elements `key0` to `key5`; `None` if these are absent or empty.
     ///
     /// # Errors
-    /// [`PageError::Entry`] for anything but six numbers.
+    /// [`PageError::Entry`] for a text that is not six numbers.
     pub(super) fn six(&self, key: &'static str) -> Result<Option<[f64; 6]>, PageError> {
         let mut found = self.entry(key);
         if found.is_empty() {
@@ -145,12 +145,12 @@ impl Page {
     }
 }
 
-/// Number of a page: finite, with `.` as decimal sign.
+/// Parses a finite number with a decimal point; `None` for any other text.
 pub(super) fn number(text: &str) -> Option<f64> {
     text.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
-/// Text of a page in UTF-8, or else in Latin-1, as older boxes send it.
+/// Decodes a configuration page as UTF-8, or as Latin-1 if the page is not valid UTF-8. Older boxes send Latin-1.
 fn text(page: Vec<u8>) -> String {
     let latin = |page: std::string::FromUtf8Error| {
         let bytes = page.into_bytes();
@@ -159,7 +159,7 @@ fn text(page: Vec<u8>) -> String {
     String::from_utf8(page).unwrap_or_else(latin)
 }
 
-/// Replaces the entities of XML, and the entities of the middle dot and the degree sign.
+/// Decodes character references, the named entities of XML, `&middot;` and `&deg;`.
 fn decoded(text: &str) -> String {
     let mut decoded = String::with_capacity(text.len());
     let mut rest = text;
@@ -201,7 +201,7 @@ fn character(entity: &str) -> Option<char> {
     }
 }
 
-/// Entry of the page for error messages. `found` is empty if the page lacks the entry.
+/// Phrase of an error message about the entry `key` of the configuration page. `found` is empty if the page lacks the entry.
 fn stated(key: &str, found: &str) -> String {
     match found {
         "" => format!("{PAGE} has no `{key}`"),

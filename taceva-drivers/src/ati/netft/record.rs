@@ -1,8 +1,8 @@
-//! Encoding of requests and records of the raw data transfer, big-endian. No I/O.
+//! Encoding of requests and decoding of records of the Net F/T raw data transfer (RDT), big-endian. No I/O.
 
 use super::status::Status;
 
-/// Request to the box for its stream of records.
+/// Request to a Net F/T box about its stream of records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Request {
     /// Stop sending records.
@@ -24,7 +24,7 @@ impl Request {
     }
 }
 
-/// One reading in raw counts.
+/// One reading of the transducer, in raw counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Record {
     /// Sequence number, increased by one per record sent.
@@ -38,7 +38,7 @@ pub(super) struct Record {
 pub(super) const RECORD: usize = 36;
 
 impl Record {
-    /// Parses the records of a datagram. Empty if its length is not a multiple of [`RECORD`].
+    /// Parses the records of a datagram. The result is empty if the datagram length is not a multiple of [`RECORD`].
     pub(super) fn all(datagram: &[u8]) -> Vec<Record> {
         let records = datagram.chunks_exact(RECORD);
         if !records.remainder().is_empty() {
@@ -60,7 +60,7 @@ impl Record {
     }
 }
 
-/// Difference of two sequence numbers with wrap-around; negative if `record` is older.
+/// Sequence number `record` minus sequence number `than`, with wrap-around. Negative if `record` is older.
 pub(super) fn later_by(record: u32, than: u32) -> i32 {
     record.wrapping_sub(than).cast_signed()
 }

@@ -1,30 +1,30 @@
-//! Settings of a box that determine the meaning of its readings: frame, filter, rate, range and bias.
+//! Settings of a Net F/T box that determine the meaning of its readings: frame, filter, rate, range and bias.
 
 use std::collections::BTreeMap;
 
 use super::page::{PAGE, Page, PageError};
 use crate::text::shown;
 
-/// Settings of a box from its configuration page.
+/// Settings of a Net F/T box, read from its configuration page.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Setup {
-    /// Model of the box; the next field is the serial number of the calibrated transducer. Empty if the page lacks them.
+    /// Model of the box; empty if the page lacks it. `serial` is the serial number of the calibrated transducer.
     product: String,
     serial: String,
-    /// Displacement and rotation of the tool frame; `None` if the page lacks them.
+    /// Displacement along x, y and z and rotation about x, y and z of the tool frame; `None` if the page lacks them.
     tool: Option<[f64; 6]>,
-    /// Units of the displacement and of the rotation.
+    /// Units of the displacement and of the rotation of the tool frame.
     tool_units: [String; 2],
     /// Number of the low-pass filter, 0 for no filter; `None` if the page states no number.
     filter: Option<f64>,
-    /// Configured rate of records, Hz; `None` if the page lacks it. `internal_hz` is the rate of the measurement.
+    /// Configured rate of records, Hz; `None` if the page lacks it. `internal_hz` is the rate at which the box measures.
     rate_hz: Option<f64>,
     internal_hz: Option<f64>,
-    /// Measuring ranges of the forces, N; `None` if unknown.
+    /// Measuring ranges of Fx, Fy and Fz, N; `None` if unknown.
     ranges_n: Option<[f64; 3]>,
     /// True if the box subtracts a bias; `None` if the page does not state it.
     is_biased: Option<bool>,
-    /// Messages about unreadable entries, or about a low-pass filter that the page does not state.
+    /// Messages about unreadable entries of the page, and about a missing entry for the low-pass filter.
     unread: Vec<String>,
 }
 
@@ -37,29 +37,29 @@ pub(super) enum Frame {
     Tool,
 }
 
-/// Settings that the selector expects.
+/// Settings of the box that the driver's arguments expect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Expected {
     pub(super) frame: Frame,
     /// Rate of records, Hz; `None` accepts any rate.
     pub(super) rate_hz: Option<f64>,
-    /// Expected least measuring range, N; `None` accepts any range.
+    /// Minimum of the smallest measuring range of the forces, N; `None` accepts any range.
     pub(super) force_max_n: Option<f64>,
 }
 
-/// Cutoff frequencies of the low-pass filters of a Net F/T box, Hz, in the order of their numbers from 1.
+/// Cutoff frequencies of the low-pass filters of a Net F/T box, Hz. The first entry belongs to filter number 1.
 const CUTOFFS_HZ: [f64; 12] = [
     838.0, 326.0, 152.0, 73.0, 35.0, 18.0, 8.0, 5.0, 1_500.0, 2_000.0, 2_500.0, 3_000.0,
 ];
-/// Greatest relative difference of two rates, or of two ranges, that count as equal.
+/// Maximum relative difference at which two rates, or two ranges, count as equal.
 const EQUAL: f64 = 0.01;
 
 impl Setup {
-    /// Reads the settings from `page`, whose force unit is `force_unit_n`, N. An unreadable entry counts as absent. Unreadable entries and an absent
-    /// low-pass filter are warnings.
+    /// Reads the settings from `page`, whose force unit is `force_unit_n`, N. Each unreadable entry counts as absent and causes a warning, as does a
+    /// missing low-pass filter entry.
     ///
     /// # Errors
-    /// [`PageError::Entry`] for an unreadable tool frame, which decides the axes.
+    /// [`PageError::Entry`] for an unreadable tool frame, because the tool frame determines the axes.
     pub(super) fn read(page: &Page, force_unit_n: f64) -> Result<Setup, PageError> {
         let tool = page.six("cfgtfx")?;
         let mut unread = Vec::new();
@@ -84,12 +84,12 @@ impl Setup {
         })
     }
 
-    /// Smallest measuring range of a force, N; `None` if unknown.
+    /// Smallest of the measuring ranges of Fx, Fy and Fz, N; `None` if unknown.
     fn range_n(&self) -> Option<f64> {
         self.ranges_n.map(least)
     }
 
-    /// Measuring range of each force, N; `None` if unknown. In a tool frame, all forces have the smallest range.
+    /// Measuring range of each force, N; `None` if unknown. In a tool frame, each force has the smallest of the three ranges.
     pub(super) fn ranges_n(&self) -> Option<[f64; 3]> {
         let ranges_n = self.ranges_n?;
         Some(match self.is_turned() {
@@ -98,10 +98,10 @@ impl Setup {
         })
     }
 
-    /// Fails if the settings contradict the selector.
+    /// Checks that the settings of the box agree with `expected`.
     ///
     /// # Errors
-    /// A sentence with the setting, the expectation and the remedy.
+    /// A sentence with the setting, the expected value and the remedy.
     pub(super) fn check(&self, expected: &Expected) -> Result<(), String> {
         if self.is_turned() && expected.frame == Frame::Own {
             return Err(format!(
@@ -129,7 +129,7 @@ impl Setup {
         Ok(())
     }
 
-    /// Rates of a box that is set to `set_hz`: it sends every n-th reading, so its true rate may be higher.
+    /// Possible record rates of a box set to `set_hz`, Hz: `set_hz`, and the lowest whole fraction of the measuring rate that is at least `set_hz`.
     fn rates_hz(&self, set_hz: f64) -> impl Iterator<Item = f64> {
         let internal_hz = self
             .internal_hz
@@ -138,12 +138,12 @@ impl Setup {
         std::iter::once(set_hz).chain(sent_hz)
     }
 
-    /// True if the tool frame differs from the frame of the transducer.
+    /// True if the tool frame has a displacement or a rotation other than zero.
     fn is_turned(&self) -> bool {
         self.tool.is_some_and(|tool| tool.into_iter().any(is_set))
     }
 
-    /// Tool frame as text: `0;0;0;90;0;45 (mm, degrees)`.
+    /// Displacement and rotation of the tool frame as text: `0;0;0;90;0;45 (mm, degrees)`.
     fn tool_in_words(&self) -> String {
         let numbers = self
             .tool
@@ -153,7 +153,7 @@ impl Setup {
         format!("{} ({})", numbers.join(";"), units.join(", "))
     }
 
-    /// Settings by name, as a recording keeps them.
+    /// Settings of the box by name, for storage with a recording.
     pub(super) fn settings(&self) -> BTreeMap<String, String> {
         let frame = match self.tool {
             None => "unknown".to_owned(),
@@ -181,7 +181,7 @@ impl Setup {
         known.collect()
     }
 
-    /// Warnings about settings that change readings and that the driver does not undo.
+    /// Warnings about unreadable settings, and about settings that change readings and are not corrected by the driver.
     pub(super) fn warnings(&self) -> Vec<String> {
         let unread = self.unread.iter();
         let mut warnings: Vec<String> = unread
@@ -208,7 +208,7 @@ impl Setup {
     }
 }
 
-/// Value of an entry; `None` if unreadable, and the error is added to `unread`.
+/// Value of `found`. An error gives `None`, and its message is appended to `unread`.
 fn or_unread<T>(found: Result<Option<T>, PageError>, unread: &mut Vec<String>) -> Option<T> {
     found.unwrap_or_else(|error| {
         unread.push(error.to_string());
@@ -228,7 +228,7 @@ fn is_near(one: f64, other: f64) -> bool {
     (one - other).abs() <= EQUAL * other.abs()
 }
 
-/// Cutoff frequency of the low-pass filter `filter`, Hz; `None` for an unknown number.
+/// Cutoff frequency of the low-pass filter with number `filter`, Hz; `None` for an unknown number.
 fn cutoff_hz(filter: f64) -> Option<f64> {
     let numbered = (1_u8..).zip(CUTOFFS_HZ);
     let mut found = numbered.filter(|(number, _)| (f64::from(*number) - filter).abs() < 0.5);

@@ -1,4 +1,4 @@
-//! Status word of a record: its bits by name, and whether the reading is valid.
+//! Status word of a Net F/T record: its bits by name, and the validity of the reading.
 
 use std::fmt;
 
@@ -6,11 +6,11 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Status(pub(super) u32);
 
-/// Bits of a latched threshold: the threshold bit and the bit of any error. Readings remain valid.
+/// Status with a latched threshold and no other error: the threshold bit and the error bit. Readings remain valid.
 const LATCHED: u32 = 0x8001_0000;
 const SATURATED: u32 = 1 << 17;
 
-/// Bits of a Net F/T box from bit 0, by its manual.
+/// Names of the status bits of a Net F/T box, from bit 0, after its manual.
 const NAMES: [&str; 32] = [
     "reserved",
     "web server failed",
@@ -47,7 +47,7 @@ const NAMES: [&str; 32] = [
 ];
 
 impl Status {
-    /// True if a gauge is saturated, so that the force is clipped.
+    /// True if a strain gauge of the transducer is saturated, so that the force is clipped.
     pub(super) fn is_saturated(self) -> bool {
         self.0 & SATURATED != 0
     }

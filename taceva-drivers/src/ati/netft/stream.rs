@@ -1,4 +1,4 @@
-//! Socket to a box: sends requests; a separate thread reads records.
+//! UDP socket of a Net F/T box: sends requests. A separate thread reads the records.
 
 use std::io;
 use std::net::{Ipv4Addr, Ipv6Addr, SocketAddr, ToSocketAddrs, UdpSocket};
@@ -10,7 +10,7 @@ use std::time::Duration;
 use super::record::{RECORD, Record, Request, later_by};
 use crate::link::{LinkError, Mailbox, monotonic};
 
-/// Socket that receives the records of one box.
+/// UDP socket that receives the records of one Net F/T box.
 #[derive(Debug)]
 pub(super) struct RecordStream {
     socket: UdpSocket,
@@ -19,21 +19,21 @@ pub(super) struct RecordStream {
     reader: Option<JoinHandle<()>>,
 }
 
-/// Record, with the number of records lost before it.
+/// Record, with the number of records lost since the socket was opened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Counted {
     pub(super) record: Record,
-    /// Total number of lost records, computed from sequence numbers.
+    /// Number of records lost since the socket was opened, computed from gaps in the sequence numbers.
     pub(super) missing: u64,
 }
 
-/// Interval at which the reader thread checks whether it must end.
+/// Interval at which the reader thread checks the flag that ends it.
 const LOOK: Duration = Duration::from_millis(50);
 /// Maximum number of records in a datagram.
 const RECORDS_MAX: usize = 64;
 
 impl RecordStream {
-    /// Opens a socket that accepts only datagrams from `port` of `host`. A thread posts received records.
+    /// Opens a socket that accepts only datagrams from `port` of `host`. A thread posts the received records to `records`.
     pub(super) fn open(
         host: &str,
         port: u16,
@@ -94,7 +94,7 @@ impl Drop for RecordStream {
     }
 }
 
-/// Posts every record until `is_over` is set or the socket fails.
+/// Posts the newest record of each datagram to `posting`, until `is_over` is set or the socket fails.
 fn read(socket: &UdpSocket, is_over: &AtomicBool, posting: &Mailbox<Counted>) -> io::Result<()> {
     // One extra byte, so that an oversized datagram is not a multiple of the record size.
     let mut bytes = [0; RECORDS_MAX * RECORD + 1];
@@ -131,5 +131,5 @@ fn read(socket: &UdpSocket, is_over: &AtomicBool, posting: &Mailbox<Counted>) ->
     Ok(())
 }
 
-/// Maximum difference of sequence numbers for a record that counts as reordered.
+/// Sequence-number lag at which a record counts as the first after a restart of the box. A record with a smaller lag is reordered.
 const REORDERED_MAX: i32 = 1_000;

@@ -1,4 +1,4 @@
-//! Force transducer behind a Net F/T box.
+//! Force transducer that is connected through a Net F/T box.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ use super::stream::{Counted, RecordStream};
 use crate::link::{LinkError, Mailbox, Seen};
 use crate::zero::{HostZero, READ};
 
-/// Connection options.
+/// Options for the connection to a Net F/T box.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct NetftOptions {
     pub(super) host: String,
@@ -27,7 +27,7 @@ pub(super) struct NetftOptions {
     pub(super) expected: Expected,
 }
 
-/// A connected transducer.
+/// Open connection to a force transducer through a Net F/T box.
 #[derive(Debug)]
 pub(super) struct Transducer {
     options: NetftOptions,
@@ -41,7 +41,7 @@ pub(super) struct Transducer {
     is_latched: bool,
     /// Sequence number of the last reading; `None` before the first.
     sequence: Option<u64>,
-    /// Mailbox number of the record that was returned last.
+    /// Number that the mailbox gave to the record returned last.
     last: u64,
 }
 
@@ -54,7 +54,7 @@ fn failed(
 }
 
 impl Transducer {
-    /// Reads the calibration of a box and opens a socket. Does not start the readings.
+    /// Reads the calibration and the settings of a box and opens a socket for its records. Does not start the readings.
     pub(super) fn open(options: NetftOptions) -> Result<Transducer, DriverError> {
         let doing = "connect to the box";
         let page = Page::ask(&options.host, options.page_port)
@@ -117,12 +117,12 @@ impl Transducer {
         Ok(seen)
     }
 
-    /// Total number of lost records, computed from sequence numbers.
+    /// Number of records lost since the socket was opened, computed from gaps in the sequence numbers.
     fn missing(&self) -> u64 {
         self.records.newest().map_or(0, |seen| seen.what.missing)
     }
 
-    /// Converts a record to N and N·mm, before the zero offset is subtracted.
+    /// Converts a record to forces, N, and torques, N·mm. The zero offset is not subtracted.
     fn wrench(&self, record: &Record) -> Result<Wrench, DriverError> {
         let status = record.status;
         if status.is_saturated() {

@@ -2,28 +2,28 @@
 
 use thiserror::Error;
 
-/// Extracts the body from the bytes of a connection.
+/// Decoder that extracts the HTTP body from the bytes of a connection.
 #[derive(Debug)]
 pub(super) enum Body {
-    /// Without transfer encoding.
+    /// Body without transfer encoding.
     Plain,
-    /// Chunked transfer encoding.
+    /// Body with chunked transfer encoding.
     Chunked(Chunks),
 }
 
-/// Position within chunked data.
+/// Decoder state within a chunked HTTP body.
 #[derive(Debug, Default)]
 pub(super) struct Chunks {
-    /// Part of a chunk-size line that has arrived.
+    /// Bytes received of an incomplete chunk-size line.
     line: Vec<u8>,
-    /// Bytes left in the current chunk.
+    /// Number of bytes of the current chunk that have not arrived.
     left: usize,
-    /// True if the line end of the previous chunk is expected next.
+    /// True if the line end after the data of a chunk is expected next.
     is_behind: bool,
     has_ended: bool,
 }
 
-/// Invalid chunked encoding.
+/// Error: the HTTP body violates the chunked encoding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("its answer announces chunked encoding but is not chunked")]
 pub(super) struct ChunkError;
@@ -40,10 +40,10 @@ impl Body {
         }
     }
 
-    /// Passes the body's bytes in `bytes` to `take`. Bytes after the last chunk are ignored.
+    /// Decodes `bytes` and passes the bytes of the body to `take`. Bytes after the last chunk are ignored.
     ///
     /// # Errors
-    /// [`ChunkError`] if a chunk length is expected but missing.
+    /// [`ChunkError`] if a chunk-size line is invalid or too long, or if a chunk does not end with a line end.
     pub(super) fn push(
         &mut self,
         bytes: &[u8],
@@ -58,7 +58,7 @@ impl Body {
         }
     }
 
-    /// True once the last chunk has arrived.
+    /// True once the last chunk has arrived; always false for a body without chunks.
     pub(super) fn has_ended(&self) -> bool {
         matches!(self, Body::Chunked(chunks) if chunks.has_ended)
     }

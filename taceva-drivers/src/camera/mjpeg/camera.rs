@@ -1,4 +1,4 @@
-//! Sensor that reads an MJPEG stream.
+//! Sensor whose frames come from an MJPEG stream over HTTP.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -19,27 +19,27 @@ use crate::camera::preset::Preset;
 use crate::link::mailbox::Ending;
 use crate::link::{Mailbox, Seen};
 
-/// A connected streaming camera.
+/// Camera with an open MJPEG stream over HTTP.
 #[derive(Debug)]
 pub(super) struct Camera {
     url: Url,
-    /// Received images, kept across reconnections.
+    /// Mailbox of received images. A reconnection keeps the mailbox.
     pictures: Arc<Mailbox<Picture>>,
-    /// Current connection, closed with the sensor.
+    /// Current connection to the camera. Dropping the sensor closes the connection.
     stream: Stream,
     frames: Pictures,
     is_running: bool,
-    /// Mailbox number of the image that was returned last.
+    /// Number that the mailbox gave to the image returned last.
     last: u64,
-    /// Image that was returned last; `None` before the first.
+    /// Image file of the last capture; `None` before the first capture and after a failed capture.
     given: Option<Arc<[u8]>>,
-    /// Number of images that were replaced before a capture.
+    /// Number of images that newer images replaced before a capture read them.
     missed: u64,
-    /// Clock of the server, if it stamps the frames. Otherwise a frame is stamped on arrival.
+    /// Clock of the server, if the server stamps the frames; `None` if a frame is stamped on arrival.
     clock: Option<CameraClock>,
 }
 
-/// Timeout for the first image, which determines the size.
+/// Timeout for the first image, which determines the size of every frame.
 const FIRST: Duration = Duration::from_secs(3);
 
 fn failed(
@@ -56,7 +56,7 @@ fn connected(url: &Url, pictures: &Arc<Mailbox<Picture>>) -> Result<Stream, Driv
 }
 
 impl Camera {
-    /// Connects to a camera and waits for its first image. The server stamps the frames if `is_stamping`.
+    /// Connects to a camera and waits for its first image. If `is_stamping`, frames have the time stamps of the server.
     pub(super) fn open(
         url: Url,
         preset: Option<&Preset>,
@@ -96,7 +96,7 @@ impl Camera {
     }
 }
 
-/// Stamp of an image by the clock of its server, s.
+/// Server time of an image, s. Fails if the server did not stamp the image.
 fn stamped_s(picture: &Picture) -> Result<f64, DriverError> {
     picture.stamped_s.ok_or_else(|| {
         let why = "the picture has no `X-Timestamp` in seconds, expected by `clock=server`: omit `clock`, or make the server write this header";
@@ -104,7 +104,7 @@ fn stamped_s(picture: &Picture) -> Result<f64, DriverError> {
     })
 }
 
-/// Waits for the next image.
+/// Waits for the next image, for at most `patience`.
 fn next(
     pictures: &Mailbox<Picture>,
     after: u64,

@@ -1,27 +1,27 @@
-//! Clock of a camera's server, which stamps its pictures. No I/O.
+//! Conversion of a camera server's time stamps to the monotonic clock of this machine. No I/O.
 
 use std::time::Duration;
 
-/// Number of pictures after which the offset to this machine's clock is fixed. A later drift remains in the stamps.
+/// Number of pictures after which the clock offset is fixed. A later drift of the server's clock remains in the time stamps.
 const PICTURES: u32 = 32;
-/// Greatest change of the time from stamp to arrival between two pictures, s. A greater change is a step or a restart of the server's clock.
+/// Maximum change of the delay between two successive pictures, s. A greater change means a step or a restart of the server's clock.
 const STEP_S: f64 = 10.0;
 
 /// Offset of a server's clock from the monotonic clock of this machine.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct CameraClock {
-    /// Least time from a server's stamp to the arrival, s; `None` before the first picture. Delays only add to this time.
+    /// Minimum arrival time minus server stamp over the first pictures, s; `None` before the first picture.
     behind_s: Option<f64>,
-    /// Time from the stamp to the arrival of the last picture, s; `None` before the first.
+    /// Arrival time minus server stamp of the last picture, s; `None` before the first picture.
     newest_s: Option<f64>,
     pictures: u32,
-    /// Last returned time, s.
+    /// Picture time that was returned last, s.
     last_s: f64,
 }
 
 impl CameraClock {
-    /// Time of a picture on the monotonic clock; `None` after a step of the server's clock. The server's stamp is `stamped_s`, s, and the arrival is
-    /// `arrived`.
+    /// Time of a picture on the monotonic clock, from its server stamp `stamped_s` in seconds and its time `arrived` of arrival. `None` after a step
+    /// of the server's clock.
     pub(super) fn place(&mut self, stamped_s: f64, arrived: Duration) -> Option<Duration> {
         let behind_s = arrived.as_secs_f64() - stamped_s;
         let newest_s = *self.newest_s.get_or_insert(behind_s);
@@ -46,7 +46,7 @@ impl CameraClock {
 mod tests {
     use super::*;
 
-    /// Place of a picture stamped by `stamped_s` that arrived at `arrived_s`, s.
+    /// Time of a picture on the monotonic clock, s, from its server stamp and its arrival, both in seconds.
     fn placed(clock: &mut CameraClock, stamped_s: f64, arrived_s: f64) -> f64 {
         let arrived = Duration::from_secs_f64(arrived_s);
         let placed = clock.place(stamped_s, arrived);

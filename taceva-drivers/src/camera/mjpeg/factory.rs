@@ -16,20 +16,20 @@ submit_builtin!(dyn Sensor, || Ok(Box::new(MjpegFactory::new()?)));
 /// Opens cameras that stream JPEG (or PNG) over HTTP: `camera/mjpeg:url=http://192.168.1.20:8080/?action=stream`.
 ///
 /// # The physical contract
-/// - Opening connects and waits for a first image, which determines the size and format of every frame. A frame of another size is an error
-///   of that frame. The connection lasts until the sensor is dropped; `start` reconnects to a lost camera.
-/// - A frame is the newest image received; images not captured in time are missed. Its stamp is the arrival time of its first bytes, on the
-///   monotonic clock. Exposure and compression in the camera happen earlier and are not included.
-/// - With `clock=server` the stamp is the server's time of each picture (`X-Timestamp` of `ustreamer` and `mjpg-streamer`), plus the
-///   least delay of the first 32 frames. Delays of the link then do not scatter the stamps, but a drift of that clock remains in them. A step of
-///   that clock by more than 10 s, as after a restart, is an error until the sensor is opened again.
+/// - Opening connects and waits for a first image, which determines the size and format of every frame. A frame of another size is an error of that
+///   frame. The connection lasts until the sensor is dropped; `start` reconnects to a lost camera.
+/// - A frame is the newest image received; images that no capture reads in time are missed. The stamp of a frame is the arrival time of its first
+///   bytes, on the monotonic clock. Exposure and compression in the camera happen earlier and are not included.
+/// - With `clock=server` the stamp is the server's time of each picture (`X-Timestamp` of `ustreamer` and `mjpg-streamer`), plus the least delay of
+///   the first 32 frames. Delays of the link then do not scatter the stamps, but a drift of the server's clock remains in them. A step of that clock
+///   by more than 10 s, as after a restart, is an error until the sensor is opened again.
 /// - The driver sets nothing: exposure, gain, white balance and focus must be fixed at the camera's server.
 /// - Only plain HTTP without a password is supported. Redirections are not followed.
 ///
 /// # Verification
-/// Tests use ffmpeg as a server (`-f mpjpeg -listen 1`), and streams in the formats of `ustreamer` and `mjpg-streamer`. The streams have the
-/// boundary in the header or in the body, with and without lengths, chunked. The driver passes its suite on an emulated camera with each
-/// format. **Not verified without the device**: its latency, and its automatic settings.
+/// Tests use ffmpeg as a server (`-f mpjpeg -listen 1`), and streams in the formats of `ustreamer` and `mjpg-streamer`. The streams state the
+/// boundary in the header or only in the body. Some state image lengths, and some are chunked. The driver passes its suite on an emulated camera with
+/// each format. **Not verified without the device**: the latency and the automatic settings of a camera.
 ///
 /// ```
 /// use taceva_core::Factory;
@@ -47,7 +47,7 @@ impl MjpegFactory {
     /// Creates the factory.
     ///
     /// # Errors
-    /// [`DescriptorError`] if the descriptor is inconsistent, which tests rule out.
+    /// [`DescriptorError`] if the built-in descriptor is inconsistent. Tests exclude this case.
     pub fn new() -> Result<MjpegFactory, DescriptorError> {
         let arguments = [
             ArgSpec::text("url").help("URL of the stream: http://host:port/path"),

@@ -1,20 +1,20 @@
-//! Parser of an HTTP response head. No I/O.
+//! Parser for the status line and the header fields of an HTTP response. No I/O.
 
 use taceva_core::ErrorKind;
 use thiserror::Error;
 
 use crate::text::shown;
 
-/// Fields of the head that determine the decoding of the body.
+/// Fields of an HTTP response head that determine the decoding of the body.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Head {
-    /// Multipart boundary without leading hyphens; `None` if the head has none.
+    /// Multipart boundary without leading hyphens; `None` if the response head has none.
     pub(super) boundary: Option<String>,
-    /// True if the body is chunked.
+    /// True if the body has chunked transfer encoding.
     pub(super) is_chunked: bool,
 }
 
-/// Response that is not a stream.
+/// Error: the HTTP response is not a stream of images.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(super) enum HeadError {
     #[error("its answer is not HTTP: `{}`", shown(.line))]
@@ -26,7 +26,7 @@ pub(super) enum HeadError {
 }
 
 impl HeadError {
-    /// Kind of the failure.
+    /// Kind of the driver error for this failure.
     pub(super) fn kind(&self) -> ErrorKind {
         match self {
             HeadError::Refused { code: 404, .. } => ErrorKind::NotFound,
@@ -39,13 +39,13 @@ impl HeadError {
     }
 }
 
-/// Maximum length of a head, bytes.
+/// Maximum length of an HTTP response head, bytes.
 pub(super) const HEAD_MAX: usize = 16 << 10;
-/// Maximum length of a quoted line, bytes.
+/// Maximum length of a response line that an error message quotes, bytes.
 const SHOWN: usize = 80;
 
 impl Head {
-    /// Parses the head at the front of `bytes` and returns its length. `None` while it is incomplete.
+    /// Parses the HTTP response head at the start of `bytes`. Returns the fields and the length of the head; `None` while the head is incomplete.
     pub(super) fn read(bytes: &[u8]) -> Result<Option<(Head, usize)>, HeadError> {
         let is_http = |bytes: &[u8]| {
             let length = bytes.len().min(5);
@@ -97,7 +97,7 @@ impl Head {
     }
 }
 
-/// Length of a head including the empty line, with either kind of line end; `None` while it is incomplete.
+/// Length of an HTTP head, bytes, with the empty line at its end. Lines end with CRLF or LF. `None` while the head is incomplete.
 pub(super) fn end_of_head(bytes: &[u8]) -> Option<usize> {
     let ends = |mark: &[u8]| {
         let found = bytes.windows(mark.len()).position(|window| window == mark);
@@ -109,7 +109,7 @@ pub(super) fn end_of_head(bytes: &[u8]) -> Option<usize> {
         .min()
 }
 
-/// Boundary of a content type such as `multipart/x-mixed-replace; boundary="--frame"`, without leading hyphens, which some servers add.
+/// Boundary in a content type such as `multipart/x-mixed-replace; boundary="--frame"`. Leading hyphens, which some servers add, are removed.
 fn boundary(content_type: &str) -> Option<String> {
     let mut parameters = content_type.split(';').skip(1);
     let found = parameters.find_map(|parameter| {

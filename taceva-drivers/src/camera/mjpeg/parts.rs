@@ -1,37 +1,37 @@
-//! Splits the body of a stream into images. No I/O.
+//! Splitter of a multipart HTTP body into images. No I/O.
 
 use thiserror::Error;
 
 use super::head::end_of_head;
 use crate::text::shown;
 
-/// Splits bytes that arrive in pieces of any size into images.
+/// Splitter of a multipart HTTP body into images. The body may arrive in pieces of any size.
 #[derive(Debug)]
 pub(super) struct Parts {
     waiting: Vec<u8>,
-    /// Two hyphens and the boundary; `None` until it is known from the body.
+    /// Two hyphens and the boundary; `None` until the body shows the boundary.
     delimiter: Option<Vec<u8>>,
     within: Within,
-    /// Offset up to which the current part was searched for its end.
+    /// Offset in `waiting` up to which the end of the current part was searched.
     searched: usize,
-    /// Parts dropped because their length was wrong.
+    /// Number of image parts that were dropped because their stated length was wrong.
     broken: u64,
-    /// Stamp in the head of the current part, s; `None` if the head has none.
+    /// Server time in the head of the current part, s; `None` if the head has none.
     stamped_s: Option<f64>,
 }
 
-/// Position within the body.
+/// Position of the splitter within a multipart body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Within {
-    /// Before a delimiter.
+    /// Before the delimiter of the next part.
     Between,
-    /// In the head of a part.
+    /// Within the header fields of a part.
     Head,
-    /// In an image, with the announced length in bytes if there is one.
+    /// Within an image. The value is the image length that the head of the part states, bytes; `None` if the head states none.
     Picture(Option<usize>),
 }
 
-/// Error of a body that is not a stream of images.
+/// Error: the multipart body is not a stream of images.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(super) enum PartError {
     #[error("a picture of {found} bytes, expected at most {PICTURE_MAX}")]
@@ -49,7 +49,7 @@ pub(super) enum PartError {
 /// Maximum size of an image, bytes.
 const PICTURE_MAX: usize = 64 << 20;
 const PART_HEAD_MAX: usize = 8 << 10;
-/// Maximum number of bytes before the first boundary, which may follow some text. A boundary has at most 70 characters.
+/// Number of bytes in which the first boundary line must end if the response head states no boundary. Servers may send text before that line.
 const SEARCHED_MAX: usize = 8 << 10;
 
 impl Parts {
@@ -65,30 +65,30 @@ impl Parts {
         }
     }
 
-    /// Appends bytes of the body.
+    /// Appends received bytes of the body to the bytes that wait for the splitter.
     pub(super) fn push(&mut self, bytes: &[u8]) {
         self.waiting.extend_from_slice(bytes);
     }
 
-    /// True if a part is incomplete.
+    /// True if the head or the image of a part has begun and is incomplete.
     pub(super) fn is_within_part(&self) -> bool {
         self.within != Within::Between
     }
 
-    /// Number of parts dropped because their length was wrong.
+    /// Number of image parts that were dropped because their stated length was wrong.
     pub(super) fn broken(&self) -> u64 {
         self.broken
     }
 
-    /// Stamp of the last returned image by the clock of its server, s; `None` if the server writes none. Valid until the next call of [`next`](Parts::next).
+    /// Server time of the image returned last, s; `None` if the server writes none. Valid until the next call of [`next`](Parts::next).
     pub(super) fn stamped_s(&self) -> Option<f64> {
         self.stamped_s
     }
 
-    /// Returns the next complete image; `None` until it has arrived.
+    /// Returns the next complete image; `None` until all its bytes have arrived.
     ///
     /// # Errors
-    /// [`PartError`], which is permanent: the connection must be closed.
+    /// [`PartError`] if the body is not a stream of images. The caller must then close the connection.
     pub(super) fn next(&mut self) -> Result<Option<Vec<u8>>, PartError> {
         loop {
             match self.within {
@@ -142,7 +142,7 @@ impl Parts {
         }
     }
 
-    /// Skips past the next delimiter; `false` until it has arrived.
+    /// Removes all bytes up to the end of the next delimiter. Returns `false` if no complete delimiter has arrived.
     fn find_delimiter(&mut self) -> Result<bool, PartError> {
         if self.delimiter.is_none() {
             self.delimiter = self.first_delimiter()?;
@@ -165,7 +165,7 @@ impl Parts {
         }
     }
 
-    /// Delimiter from the first line that begins with two hyphens; `None` until it has arrived.
+    /// Delimiter in the first line that begins with two hyphens; `None` until that line has arrived.
     fn first_delimiter(&self) -> Result<Option<Vec<u8>>, PartError> {
         let searched = &self.waiting[..self.waiting.len().min(SEARCHED_MAX)];
         let mut lines = searched.split_inclusive(|byte| *byte == b'\n');
@@ -181,7 +181,7 @@ impl Parts {
         }
     }
 
-    /// Finds `delimiter`. Remembers the search position, so bytes are scanned once.
+    /// Offset of `delimiter` in the waiting bytes. Remembers the search position, so bytes are scanned once.
     fn search(&mut self, delimiter: &[u8]) -> Option<usize> {
         let from = self.searched.min(self.waiting.len());
         let found = self.waiting[from..]
@@ -193,7 +193,7 @@ impl Parts {
         found.map(|at| from + at)
     }
 
-    /// True if the rest begins with a line end and a delimiter, as far as it has arrived.
+    /// True if the waiting bytes, after white space and hyphens, begin with the boundary or with a part of it that has arrived.
     fn is_at_delimiter(&self) -> bool {
         let delimiter = self.delimiter.as_deref().unwrap_or_default();
         let rest = self.waiting.trim_ascii_start();
@@ -204,8 +204,8 @@ impl Parts {
     }
 }
 
-/// Bytes after an image that must arrive before its length is trusted: the line end. An image that ends with the end marker of its format is accepted without
-/// these bytes, which some servers delay until the next image.
+/// Bytes after an image, its line end, that must arrive before the stated length is trusted. An image that ends with the end marker of its
+/// format needs none, because some servers delay these bytes until the next image.
 const ENDING: usize = 2;
 
 /// True if the image ends with the end marker of JPEG or PNG.
@@ -213,7 +213,7 @@ fn ends_as_pictures_do(picture: &[u8]) -> bool {
     picture.ends_with(b"\xff\xd9") || picture.ends_with(b"IEND\xaeB`\x82")
 }
 
-/// Length announced by the head of a part, bytes; `None` if there is none.
+/// Image length in the header fields `lines` of a part, bytes; `None` if there is none. Fails for a part that is not an image.
 fn announced(lines: &str) -> Result<Option<usize>, PartError> {
     let mut length = None;
     for (name, value) in lines.lines().filter_map(|line| line.split_once(':')) {
@@ -234,7 +234,7 @@ fn announced(lines: &str) -> Result<Option<usize>, PartError> {
     }
 }
 
-/// Stamp in the head of a part, as `X-Timestamp: 1234.567890`, s; `None` if the head has none.
+/// Server time in the header fields `lines` of a part, such as `X-Timestamp: 1234.567890`, s; `None` if there is none.
 fn stamped_s(lines: &str) -> Option<f64> {
     let mut fields = lines.lines().filter_map(|line| line.split_once(':'));
     let (_, value) = fields.find(|(name, _)| name.trim().eq_ignore_ascii_case("x-timestamp"))?;
@@ -242,7 +242,7 @@ fn stamped_s(lines: &str) -> Option<f64> {
     stamped_s.is_finite().then_some(stamped_s)
 }
 
-/// Strips the hyphens and the line end that belong to the next delimiter.
+/// Image without the line end and the hyphens at its end, which belong to the next delimiter.
 fn without_ending(picture: &[u8]) -> &[u8] {
     let hyphens = picture
         .iter()

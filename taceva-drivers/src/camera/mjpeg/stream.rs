@@ -1,4 +1,4 @@
-//! Connection to a camera: a reader thread posts the newest image.
+//! HTTP connection to a streaming camera. A reader thread posts the newest image.
 
 use std::io::{self, Read, Write};
 use std::net::{Shutdown, SocketAddr, TcpStream};
@@ -16,25 +16,25 @@ use super::url::Url;
 use crate::link::mailbox::Ending;
 use crate::link::{LinkError, Mailbox, connect, monotonic};
 
-/// An image as sent, with the arrival time of its first bytes on the monotonic clock.
+/// Image file as the server sent it, with the arrival time of its first bytes on the monotonic clock.
 #[derive(Clone, Debug)]
 pub(super) struct Picture {
     pub(super) bytes: Arc<[u8]>,
     pub(super) began: Duration,
-    /// Stamp by the clock of the server, s; `None` if the server writes none.
+    /// Server time of the image, s; `None` if the server writes none.
     pub(super) stamped_s: Option<f64>,
-    /// Total number of parts with a wrong length.
+    /// Number of image parts with a wrong stated length since the connection was opened.
     pub(super) broken: u64,
 }
 
-/// An open stream of a camera.
+/// Open HTTP connection that receives a stream of images.
 #[derive(Debug)]
 pub(super) struct Stream {
     stream: TcpStream,
     reader: Option<JoinHandle<()>>,
 }
 
-/// Failure to open a stream.
+/// Failure to open the image stream of a camera.
 #[derive(Debug, Error)]
 pub(super) enum StreamError {
     #[error(transparent)]
@@ -49,7 +49,7 @@ pub(super) enum StreamError {
 }
 
 impl StreamError {
-    /// Kind of the failure.
+    /// Kind of the driver error for this failure.
     pub(super) fn kind(&self) -> ErrorKind {
         match self {
             StreamError::Link(error) => error.kind(),
@@ -59,11 +59,11 @@ impl StreamError {
     }
 }
 
-/// Timeout for the response.
+/// Timeout for each read of the HTTP response head.
 const ANSWER: Duration = Duration::from_secs(3);
 
 impl Stream {
-    /// Requests the stream at `url` and posts its images to `pictures`.
+    /// Requests the stream at `url` and starts a thread that posts the images to `pictures`.
     pub(super) fn open(url: &Url, pictures: &Arc<Mailbox<Picture>>) -> Result<Stream, StreamError> {
         let (mut stream, address) = connect(&url.host, url.port)?;
         let broken = |source: io::Error| LinkError::Broken { address, source };
@@ -97,7 +97,7 @@ impl Drop for Stream {
     }
 }
 
-/// Reads the head of the response. Also returns received bytes of the body.
+/// Reads the head of the HTTP response. Also returns the bytes of the body that arrived with the head.
 fn read_head(stream: &mut TcpStream, address: SocketAddr) -> Result<(Head, Vec<u8>), StreamError> {
     let mut waiting = Vec::new();
     let mut bytes = [0; 4096];
@@ -124,7 +124,7 @@ fn read_head(stream: &mut TcpStream, address: SocketAddr) -> Result<(Head, Vec<u
     }
 }
 
-/// Posts every image until the stream ends, and returns the reason.
+/// Posts the newest image of each read from the connection until the stream ends. Returns the cause of the end.
 fn read(
     mut stream: TcpStream,
     address: SocketAddr,

@@ -1,4 +1,4 @@
-//! URL of a stream.
+//! URL of the image stream of a camera.
 
 use std::str::FromStr;
 
@@ -11,11 +11,11 @@ use crate::text::shown;
 pub(super) struct Url {
     pub(super) host: String,
     pub(super) port: u16,
-    /// Path and query, beginning with `/`.
+    /// Path and query of the URL, beginning with `/`.
     pub(super) path: String,
 }
 
-/// Invalid URL of a stream.
+/// Error: the text is not a valid URL of an image stream.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("`url`: `{}`: {problem}; expected `http://host:port/path`", shown(.text))]
 pub(super) struct UrlError {
@@ -78,7 +78,7 @@ impl FromStr for Url {
 }
 
 impl Url {
-    /// HTTP request for the stream.
+    /// Text of the HTTP request for the image stream at this URL.
     pub(super) fn request(&self) -> String {
         let Url { host, port, path } = self;
         let host = if host.contains(':') {

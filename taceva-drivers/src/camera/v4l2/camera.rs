@@ -1,4 +1,4 @@
-//! Sensor that uses a local camera.
+//! Sensor whose frames come from a local camera.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -26,7 +26,7 @@ pub(super) struct V4l2Options {
     pub(super) device: String,
     pub(super) width: u32,
     pub(super) height: u32,
-    /// Accepted pixel formats, best first.
+    /// Accepted pixel formats, in order of preference.
     pub(super) pixels: Vec<FourCc>,
     pub(super) rate_hz: Option<f64>,
     pub(super) crop: Crop,
@@ -34,7 +34,7 @@ pub(super) struct V4l2Options {
     pub(super) leds: Leds,
 }
 
-/// An open camera.
+/// Local camera that this driver has opened.
 #[derive(Debug)]
 pub(super) struct LocalCamera {
     options: V4l2Options,
@@ -44,18 +44,18 @@ pub(super) struct LocalCamera {
     reader: Option<Reader>,
     frames: Frames,
     settings: BTreeMap<String, String>,
-    /// Mailbox number of the image that was returned last.
+    /// Number that the mailbox gave to the image returned last.
     last: u64,
-    /// Number of images that were replaced before a capture, or lost.
+    /// Number of images that no capture read, because newer images replaced them or the stream lost them.
     missed: u64,
 }
 
 const OPEN: &str = "open the camera";
-/// Timeout for the first image, whose file determines the frame format.
+/// Timeout for the first image of a JPEG camera. That image determines the frame format.
 const FIRST: Duration = Duration::from_secs(3);
 
 impl LocalCamera {
-    /// Opens a camera, sets its format and fixes its controls. For JPEG, captures one image to determine the frame format.
+    /// Opens a camera, sets its image format and fixes its controls. For JPEG, captures one image to determine the frame format.
     pub(super) fn open(options: V4l2Options) -> Result<LocalCamera, DriverError> {
         options.leds.colour()?;
         let (mut camera, given) = options.connect()?;
@@ -121,14 +121,14 @@ impl LocalCamera {
 }
 
 impl V4l2Options {
-    /// Fixes controls and LEDs, and returns the values read back.
+    /// Sets the controls and LEDs to fixed values. Returns the values read back by name.
     fn fix(&self, camera: &mut Camera) -> Result<BTreeMap<String, String>, DriverError> {
         let mut settings = self.fixed.apply(camera)?;
         self.leds.apply(camera, &mut settings)?;
         Ok(settings)
     }
 
-    /// Opens the camera with the first pixel format that it supports.
+    /// Opens the camera with the first of the accepted pixel formats that the camera supports, and sets the frame rate.
     fn connect(&self) -> Result<(Camera, GivenFormat), DriverError> {
         let mut camera = Camera::open(&self.device).map_err(refused(OPEN))?;
         let mut unknown = None;
@@ -160,7 +160,7 @@ impl V4l2Options {
     }
 }
 
-/// Captures the first undamaged image and stops the stream.
+/// Captures images until one is undamaged and stops the stream. Returns the camera and that image. Fails if none arrives within [`FIRST`].
 fn first_picture(camera: Camera) -> Result<(Camera, Vec<u8>), DriverError> {
     let mut stream = Stream::start(camera).map_err(refused(OPEN))?;
     let began = crate::link::monotonic();

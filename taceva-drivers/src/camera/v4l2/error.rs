@@ -1,14 +1,14 @@
-//! Errors of the driver.
+//! Errors of the driver `camera/v4l2`.
 
 use super::kernel::V4l2Error;
 use taceva_core::{DriverError, ErrorKind};
 
 use super::KEY;
 
-/// Operation name of the start, for errors.
+/// Operation that the error of a failed start names.
 pub(super) const START: &str = "start the camera";
 
-/// Kind of a driver error for `error` of the kernel interface.
+/// Kind of the driver error that reports `error` of the kernel interface.
 pub(super) fn kind_of(error: &V4l2Error) -> ErrorKind {
     match error {
         V4l2Error::Open { source, .. } => match source.kind() {
@@ -24,7 +24,7 @@ pub(super) fn kind_of(error: &V4l2Error) -> ErrorKind {
     }
 }
 
-/// Creates an error with a reason.
+/// Creates an error of this driver: `doing` is the operation that failed, `why` the reason.
 pub(super) fn failed(
     kind: ErrorKind,
     doing: &'static str,
@@ -33,7 +33,7 @@ pub(super) fn failed(
     DriverError::new(kind, &KEY, doing).because(why)
 }
 
-/// Converts an error of the kernel interface that occurred while `doing`.
+/// Returns a converter for errors of the kernel interface that occur during the operation `doing`.
 pub(super) fn refused(doing: &'static str) -> impl Fn(V4l2Error) -> DriverError {
     move |error| failed(kind_of(&error), doing, error)
 }

@@ -31,17 +31,18 @@ submit_builtin!(dyn Sensor, || Ok(Box::new(V4l2Factory::new()?)));
 /// - Exposure, gain, white balance and focus are **fixed**. Automatic control is switched off at open and at every start; requested values are set
 ///   and read back; others stay unchanged. The values read back are stored with a recording. A camera that keeps automatic control on is rejected, or
 ///   flagged with `automatic=keep`.
-/// - A frame is the newest image received, with the kernel's time stamp on the monotonic clock. Missed images are counted by the camera's numbers. A
-///   damaged, short or wrongly sized image is an error of that frame. An unplugged camera is `Disconnected`; `start` reopens it.
+/// - A frame is the newest image received, with the kernel's time stamp on the monotonic clock. Missed images are counted from gaps in the image
+///   numbers. A damaged, short or wrongly sized image is an error of that frame. An unplugged camera is `Disconnected`; `start` reopens it.
 /// - A camera serves one program. A second program gets an error that the camera is in use.
 /// - With `preset=digit`, `led` sets the LEDs of the sensor at open and at every start. The LEDs are read back, and stored with a recording. LEDs
 ///   that do not keep the value are an error. Without `led` the LEDs stay unchanged and are read back.
 ///
 /// # Verification
-/// The kernel's emulated camera `vivid` in a virtual machine (`taceva-wire`, test `kernel`): YUYV pixels against its colour bars, the suite, gain, a
-/// second program, unplugging. `vivid` gives only uncompressed pixels and, of the fixed controls, only gain and automatic gain. The test checks that
-/// `vivid` rejects `pixels=mjpeg`, `exposure_ms`, `white_balance_k` and `focus`. **Not verified without the device**: JPEG through this interface
-/// (decoded as in `camera/mjpeg`), exposure, white balance and focus, the presets, and any latency.
+/// The test `kernel` of `taceva-wire` runs the kernel's emulated camera `vivid` in a virtual machine. The test compares YUYV pixels with the colour
+/// bars of `vivid`. The driver suite, gain, a second program and unplugging are tested too. `vivid` gives only uncompressed pixels and, of the fixed
+/// controls, only gain and automatic gain. The test checks that `vivid` rejects `pixels=mjpeg`, `exposure_ms`, `white_balance_k` and `focus`.
+/// **Not verified without the device**: JPEG through this interface (decoded as in `camera/mjpeg`), exposure, white balance and focus, the presets,
+/// and the latency.
 ///
 /// ```
 /// use taceva_core::Factory;
@@ -57,16 +58,16 @@ pub struct V4l2Factory {
     descriptor: Descriptor,
 }
 
-/// Default image size, pixels.
+/// Default width and height of an image, pixels.
 const USUAL: [u32; 2] = [640, 480];
-/// Maximum side of an image, pixels, as for image files.
+/// Maximum width or height of an image, pixels, as for image files.
 const SIDE_MAX: i64 = 16_384;
 
 impl V4l2Factory {
     /// Creates the factory.
     ///
     /// # Errors
-    /// [`DescriptorError`] if the descriptor is inconsistent, which tests rule out.
+    /// [`DescriptorError`] if the built-in descriptor is inconsistent. Tests exclude this case.
     pub fn new() -> Result<V4l2Factory, DescriptorError> {
         let side = |key: &str, help: &str| {
             ArgSpec::whole(key, 2, SIDE_MAX)
@@ -129,7 +130,7 @@ impl Factory<dyn Sensor> for V4l2Factory {
 }
 
 impl V4l2Options {
-    /// Facts that are known before the camera is opened.
+    /// Facts about the sensor that are known before the camera is opened.
     fn facts(&self) -> SensorFacts {
         let sent = FrameInfo {
             width: self.width,
@@ -176,7 +177,7 @@ fn options(args: &Args) -> V4l2Options {
     }
 }
 
-/// Cameras of the machine with root folder `root`, sorted by device file.
+/// Cameras that the system with root folder `root` lists, sorted by the names of their device files.
 fn cameras_in(root: &Path) -> Vec<Found> {
     let class = root.join("sys/class/video4linux");
     let entries = fs::read_dir(&class).into_iter().flatten();
@@ -214,7 +215,7 @@ fn cameras_in(root: &Path) -> Vec<Found> {
     found.collect()
 }
 
-/// Device path that remains valid after replugging; `None` if the system provides none.
+/// Device path of the camera `name` that remains valid after replugging; `None` if the system provides none.
 fn stable_name(root: &Path, name: &str) -> Option<String> {
     let folder = root.join("dev/v4l/by-id");
     let mut links: Vec<_> = fs::read_dir(&folder).ok()?.flatten().collect();

@@ -1,4 +1,4 @@
-//! Controls that must not change during a measurement: exposure, gain, white balance and focus. They are fixed and read back.
+//! Controls that must not change during a measurement: exposure, gain, white balance and focus. The driver sets them and reads them back.
 
 use std::collections::BTreeMap;
 
@@ -7,34 +7,34 @@ use taceva_core::{ArgSpec, ArgValue, Args, DriverError, ErrorKind};
 
 use super::error::{failed, refused};
 
-/// Requested values of the controls. The driver does not change a control without a value, but reads it back.
+/// Requested values of exposure, gain, white balance and focus. The driver only reads back a control for which no value is requested.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Fixed {
     exposure_ms: Option<f64>,
     gain: Option<i32>,
     white_balance_k: Option<i32>,
     focus: Option<i32>,
-    /// True if a camera may keep automatic control on.
+    /// True if the driver accepts a camera that keeps automatic control on.
     keeps_automatic: bool,
 }
 
 /// Control that the driver fixes: exposure, gain, white balance or focus.
 struct Knob {
     name: &'static str,
-    /// Id of the automatic control, and its value for off.
+    /// Control that switches the automatic mode, with the value that switches it off.
     automatic: (ControlId, i32),
     control: ControlId,
     wanted: Option<i32>,
-    /// Factor from the unit of the camera to the unit of arguments and settings.
+    /// Size of one step of the control, in the unit of the argument.
     unit: f64,
 }
 
 const FIX: &str = "fix the controls of the camera";
-/// Unit of the exposure control, ms.
+/// Size of one step of the exposure control, ms.
 const EXPOSURE_MS: f64 = 0.1;
 
 impl Fixed {
-    /// Arguments that fix the controls.
+    /// Driver arguments for exposure, gain, white balance, focus and automatic control.
     pub(super) fn arguments() -> [ArgSpec; 5] {
         let whole = |key: &str, help: &str| {
             ArgSpec::whole(key, 0, i64::from(i32::MAX))
@@ -107,11 +107,11 @@ impl Fixed {
         ]
     }
 
-    /// Fixes the controls and returns the values read back, such as `exposure_ms` = `15.7`.
+    /// Sets the requested values. Returns the values read back by name, such as `exposure_ms` = `15.7`.
     ///
     /// # Errors
-    /// `Unsupported` for a missing control or a control that stays automatic, `OutOfRange` for a value outside the range. `DeviceFault` if the camera
-    /// sets another value.
+    /// `Unsupported` if a control is missing or stays automatic. `OutOfRange` if a value is outside the range of the camera. `DeviceFault` if the
+    /// camera sets another value.
     pub(super) fn apply(
         &self,
         camera: &mut Camera,
@@ -168,7 +168,7 @@ impl Knob {
         Ok(())
     }
 
-    /// Switches automatic control off unless `keeps`. Returns true if automatic control is still on.
+    /// Switches automatic control off, unless `keeps` is true. Returns true if automatic control is still on.
     fn let_go(&self, camera: &mut Camera, keeps: bool) -> Result<bool, DriverError> {
         let (automatic, off) = self.automatic;
         if camera.control(automatic).map_err(refused(FIX))?.is_none() {

@@ -1,4 +1,4 @@
-//! Conversion of camera images, rows of pixels or files, to frames.
+//! Conversion of camera images to frames. An image is rows of YUYV pixels or a JPEG file.
 
 use super::kernel::{FourCc, GivenFormat, PictureFormat};
 use taceva_core::{DriverError, ErrorKind, FrameInfo, FrameMut, PixelFormat, by_count, counted};
@@ -10,23 +10,23 @@ use crate::camera::CAPTURE;
 use crate::camera::crop::Crop;
 use crate::camera::jpeg::Pictures;
 
-/// Converter of camera images to frames.
+/// Converter from images of a local camera to frames.
 #[derive(Debug)]
 pub(super) enum Frames {
-    /// Images without compression, as rows of pixels.
+    /// Converter for uncompressed images, as rows of YUYV pixels.
     Rows {
         given: GivenFormat,
         matrix: Matrix,
         sent: FrameInfo,
-        /// Buffer for one converted row, before the crop.
+        /// Buffer for one row of RGB pixels, before the crop.
         row: Vec<u8>,
     },
-    /// Images as JPEG files.
+    /// Converter for JPEG files.
     Files(Pictures),
 }
 
 impl Frames {
-    /// Creates a converter of rows in the camera's format.
+    /// Creates a converter for uncompressed images with the size, stride and colour coding of `given`.
     pub(super) fn rows(given: GivenFormat) -> Frames {
         let PictureFormat { width, height, .. } = given.picture;
         let sent = FrameInfo {
@@ -42,7 +42,7 @@ impl Frames {
         }
     }
 
-    /// Format of the frames after `crop`.
+    /// Size and format of the frames after `crop`.
     pub(super) fn info(&self, crop: Crop) -> FrameInfo {
         match self {
             Frames::Rows { sent, .. } => crop.of(*sent),
@@ -50,7 +50,7 @@ impl Frames {
         }
     }
 
-    /// Fails if the camera's format has changed.
+    /// Checks that a reopened camera sends its earlier format. For JPEG files only the pixel format must be equal.
     pub(super) fn check(&self, found: &GivenFormat) -> Result<(), DriverError> {
         let is_same = match self {
             Frames::Rows { given, .. } => given == found,
@@ -66,7 +66,7 @@ impl Frames {
         Err(failed(ErrorKind::Protocol, START, why))
     }
 
-    /// Converts an image into a frame of [`info`](Frames::info). The error states `missed`, the number of earlier losses.
+    /// Converts an image to a frame of [`info`](Frames::info). The error for a damaged or short image states `missed`, the number of lost images.
     ///
     /// # Errors
     /// `Protocol` for an image that is damaged, short or of another size.
@@ -127,7 +127,7 @@ mod tests {
 
     use super::*;
 
-    /// Images of 4 by 2 pixels with a row stride of 12 bytes: 8 of pixels, 4 of padding.
+    /// Converter for images of 4 by 2 pixels. A row has 8 bytes of pixels and 4 bytes of padding.
     fn frames() -> Frames {
         Frames::rows(GivenFormat {
             picture: PictureFormat {
@@ -157,7 +157,7 @@ mod tests {
         Ok(pixels)
     }
 
-    /// Grays 10 to 13 and 20 to 23, with other values between the rows.
+    /// Image with the gray values 10 to 13 and 20 to 23 in its rows, and other values in the padding.
     fn grays() -> Vec<u8> {
         let row = |first: u8| [first, 128, first + 1, 128, first + 2, 128, first + 3, 128];
         [&row(10)[..], &[255; 4], &row(20)[..]].concat()

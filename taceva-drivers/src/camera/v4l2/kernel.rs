@@ -1,4 +1,4 @@
-//! Linux cameras by the kernel's own interface (Video4Linux, version 2), on 64-bit little-endian machines.
+//! Linux cameras through the kernel interface Video4Linux, version 2, on 64-bit little-endian machines.
 //!
 //! Only `ioctls.rs` and `frame_memory.rs` contain `unsafe`.
 //!

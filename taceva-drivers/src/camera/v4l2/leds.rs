@@ -1,4 +1,4 @@
-//! Light of a sensor whose camera sets its LEDs by the zoom control, as a DIGIT does.
+//! LEDs of a sensor. The zoom control of the camera sets them, as in a DIGIT.
 
 use std::collections::BTreeMap;
 
@@ -9,15 +9,15 @@ use super::error::{failed, refused};
 use crate::camera::preset::Preset;
 use crate::text::shown;
 
-/// Brightness of red, green and blue, each from 0 (off) to [`MOST`].
+/// Brightness of the red, green and blue LEDs, each from 0 (off) to [`MOST`].
 type Colour = [i32; 3];
 
 /// Requested LED colour. Without a request, the LEDs stay unchanged and are only read back.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Leds {
-    /// Colour in the selector, not yet parsed; `None` without the argument.
+    /// Text of the colour in the argument `led`, not yet parsed; `None` without this argument.
     wanted: Option<String>,
-    /// True if, by the preset, the zoom control of the camera sets LEDs of the sensor.
+    /// True if the preset states that the zoom control of the camera sets LEDs.
     are_there: bool,
 }
 
@@ -26,14 +26,14 @@ const SET: &str = "set the LEDs of the sensor";
 const MOST: i32 = 15;
 
 impl Leds {
-    /// Argument for the light.
+    /// Driver argument `led`, which sets the colour of the LEDs.
     pub(super) fn argument() -> ArgSpec {
         ArgSpec::text(LED)
             .optional()
             .help("LEDs of preset=digit, 0 to 15 for all, or red,green,blue; default: unchanged")
     }
 
-    /// Requested light in `args`, of a sensor with `preset`.
+    /// Reads the requested colour from `args`. The `preset` states if the sensor has LEDs.
     pub(super) fn of(args: &Args, preset: Option<&Preset>) -> Leds {
         let wanted = args.get(LED).and_then(ArgValue::as_text);
         Leds {
@@ -42,7 +42,7 @@ impl Leds {
         }
     }
 
-    /// Parses the requested colour; `None` without a request.
+    /// Parses the requested colour; `None` if no colour is requested.
     ///
     /// # Errors
     /// `InvalidArgument` for a text that is not a colour, and for a sensor without LEDs.
@@ -66,10 +66,10 @@ impl Leds {
         Ok(Some(colour))
     }
 
-    /// Sets the LEDs, reads them back, and adds them to the settings as `led` = `15,15,15`.
+    /// Sets the LEDs, reads them back, and adds the colour to the settings in `found` as `led` = `15,15,15`.
     ///
     /// # Errors
-    /// As [`colour`](Leds::colour); `Unsupported` for a camera without the control, `DeviceFault` if the LEDs do not keep the value.
+    /// The errors of [`colour`](Leds::colour). `Unsupported` for a camera without the zoom control. `DeviceFault` if the LEDs do not keep the value.
     pub(super) fn apply(
         &self,
         camera: &mut Camera,
@@ -103,7 +103,7 @@ impl Leds {
     }
 }
 
-/// Parses the colour in an argument; `None` if it is invalid.
+/// Parses one brightness for all LEDs, or three with commas for red, green and blue; `None` if `text` is invalid.
 fn colour(text: &str) -> Option<Colour> {
     let parts: Option<Vec<i32>> = text
         .split(',')
@@ -117,12 +117,12 @@ fn colour(text: &str) -> Option<Colour> {
     }
 }
 
-/// Value of the zoom control for a colour: four bits each for red, green and blue.
+/// Value of the zoom control for a colour: red in bits 11 to 8, green in bits 7 to 4, blue in bits 3 to 0.
 fn number([red, green, blue]: Colour) -> i32 {
     (red << 8) | (green << 4) | blue
 }
 
-/// Text for a value of the zoom control: the colour in the form of the argument, or the number if it encodes no colour.
+/// Text for a value of the zoom control: `red,green,blue`, or the number itself if it encodes no colour.
 fn words(value: i32) -> String {
     let colour = [value >> 8, (value >> 4) & MOST, value & MOST];
     match (0..=number([MOST; 3])).contains(&value) {
@@ -131,7 +131,7 @@ fn words(value: i32) -> String {
     }
 }
 
-/// Returns `value`, which was read back. Fails if the value differs from `wanted`.
+/// Returns `value`, which the camera reports for the LEDs. Fails if it differs from `wanted`.
 fn held(wanted: i32, value: i32) -> Result<i32, DriverError> {
     if wanted == value {
         return Ok(value);

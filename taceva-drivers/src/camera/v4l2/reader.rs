@@ -1,4 +1,4 @@
-//! Thread that reads the images of a camera.
+//! Thread that reads the images of a local camera and posts them to a mailbox.
 
 use std::io;
 use std::sync::Arc;
@@ -12,28 +12,28 @@ use super::error::kind_of;
 use crate::link::mailbox::Ending;
 use crate::link::{Mailbox, monotonic};
 
-/// Image as the camera sent it.
+/// Image as the camera sent it, with its time stamp.
 #[derive(Clone, Debug)]
 pub(super) struct Picture {
     pub(super) bytes: Arc<[u8]>,
-    /// Kernel time stamp on the monotonic clock; `None` if the kernel uses another clock.
+    /// Kernel time stamp on the monotonic clock; `None` if the kernel uses another clock or the stamp is later than the arrival.
     pub(super) taken: Option<Duration>,
-    /// Total number of images marked as damaged.
+    /// Number of images marked as damaged since the stream was started.
     pub(super) damaged: u64,
 }
 
-/// Thread that reads images until this value is dropped or the camera is gone.
+/// Thread that reads images until it is stopped, this value is dropped or the camera is gone.
 #[derive(Debug)]
 pub(super) struct Reader {
     is_over: Arc<AtomicBool>,
     thread: Option<JoinHandle<Camera>>,
 }
 
-/// Interval at which the thread checks for its end.
+/// Interval at which the thread checks the flag that ends it.
 const LOOK: Duration = Duration::from_millis(50);
 
 impl Reader {
-    /// Posts every image of `stream`, and counts missed images.
+    /// Starts a thread that posts every undamaged image of `stream` to `posting`, with the number of missed images.
     pub(super) fn start(stream: Stream, posting: &Arc<Mailbox<Picture>>) -> io::Result<Reader> {
         let is_over = Arc::new(AtomicBool::new(false));
         let (over, posting) = (Arc::clone(&is_over), Arc::clone(posting));

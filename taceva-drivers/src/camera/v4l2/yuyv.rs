@@ -1,11 +1,11 @@
-//! YUYV pixels: two bytes each, one luminance per pixel and one colour per pair.
+//! Conversion of YUYV pixels to RGB. Each pixel has one luminance, and each pair of pixels shares two colour values.
 
 use super::kernel::Coding;
 
-/// Colour matrix in units of 1/65,536, exact to less than 0.01 step.
+/// Conversion from YUYV to RGB, in units of 1/65,536. The rounding error is less than 0.01 of an 8-bit step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Matrix {
-    /// Luminance of black, in steps of 8 bits.
+    /// Luminance of black, from 0 to 255.
     black: i32,
     brightness: i32,
     red_of_v: i32,
@@ -15,13 +15,13 @@ pub(super) struct Matrix {
 }
 
 const ONE: f64 = 65_536.0;
-/// Steps of luminance in the limited range; the next constants are the steps of colour and the steps of the full range.
+/// Luminance steps from black to white in the limited range. The next constants: colour steps of the limited range, and steps of the full range.
 const STEPS_BRIGHTNESS: f64 = 219.0;
 const STEPS_COLOUR: f64 = 224.0;
 const STEPS: f64 = 255.0;
 
 impl Matrix {
-    /// Matrix of a coding, from the weights of red and blue in luminance (ITU-R BT.601 and BT.709).
+    /// Matrix for the conversion standard `coding`, from the shares of red and blue in luminance (ITU-R BT.601 and BT.709).
     pub(super) fn of(coding: Coding) -> Matrix {
         let (red, blue) = match coding {
             Coding::Limited601 | Coding::Full601 => (0.299, 0.114),
@@ -49,7 +49,7 @@ impl Matrix {
         }
     }
 
-    /// Converts a row to RGB. Surplus bytes of `row` are ignored.
+    /// Converts a row of YUYV pixels to RGB bytes in `into`. Bytes after the last complete pair of pixels are ignored.
     pub(super) fn row(self, row: &[u8], into: &mut [u8]) {
         for (pair, pixels) in row.chunks_exact(4).zip(into.chunks_mut(6)) {
             let &[y0, u, y1, v] = pair else { continue };
@@ -66,7 +66,7 @@ impl Matrix {
     }
 }
 
-/// Rounds `value` and limits it to 0 to 255.
+/// Rounds `value`, in units of 1/65,536, to a whole number and limits it to 0 to 255.
 fn step(value: i32) -> u8 {
     let rounded = (value + (1 << 15)) >> 16;
     u8::try_from(rounded.clamp(0, 255)).unwrap_or(0)

@@ -1,4 +1,4 @@
-//! Opening of a camera, and its image format.
+//! Access to a camera: its name, its image format and its frame rate.
 
 use std::os::fd::{AsFd, BorrowedFd, OwnedFd};
 use std::path::Path;
@@ -10,7 +10,7 @@ use super::error::V4l2Error;
 use super::ioctls::{self, Capability, Format, FormatName, Rate, Size};
 use super::picture::{Coding, FourCc, GivenFormat, PictureFormat};
 
-/// Open camera that is not streaming.
+/// Camera that is open and not streaming.
 #[derive(Debug)]
 pub struct Camera {
     file: OwnedFd,
@@ -64,12 +64,12 @@ impl Camera {
         })
     }
 
-    /// Name of the camera.
+    /// Name of the camera in the kernel.
     pub fn card(&self) -> &str {
         &self.card
     }
 
-    /// Bus address of the camera.
+    /// Address of the camera on its bus, as text from the kernel.
     pub fn bus(&self) -> &str {
         &self.bus
     }
@@ -106,10 +106,10 @@ impl Camera {
         })
     }
 
-    /// Sets the frame rate, Hz. A camera with a fixed rate keeps its rate.
+    /// Sets the frame rate to `wanted_hz`, Hz. A camera with a fixed rate keeps its rate.
     ///
     /// # Errors
-    /// [`V4l2Error::Rate`] if the resulting rate differs by more than 1 %.
+    /// [`V4l2Error::Rate`] if the rate of the camera then differs from `wanted_hz` by more than 1 %.
     pub fn set_rate(&mut self, wanted_hz: f64) -> Result<(), V4l2Error> {
         let doing = "set its frame rate";
         let refused = |source| V4l2Error::of(doing, source);
@@ -141,7 +141,7 @@ impl Camera {
         self.file.as_fd()
     }
 
-    /// Lists the supported formats and sizes, as text.
+    /// Formats and sizes that the camera supports, as text for an error message.
     fn offered(&self) -> String {
         let mut offered: Vec<String> = Vec::new();
         for index in 0..OFFERS_MAX {
@@ -190,7 +190,7 @@ impl Camera {
     }
 }
 
-/// Text up to the first zero byte.
+/// Text in `bytes` up to the first zero byte.
 pub(crate) fn text(bytes: &[u8]) -> String {
     let end = bytes.iter().position(|byte| *byte == 0);
     String::from_utf8_lossy(&bytes[..end.unwrap_or(bytes.len())]).into_owned()

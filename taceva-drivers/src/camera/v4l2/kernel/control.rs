@@ -8,7 +8,7 @@ use super::camera::{Camera, text};
 use super::error::V4l2Error;
 use super::ioctls::{self, ControlInfo, ControlValue};
 
-/// Control number.
+/// Number by which the kernel identifies a camera control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ControlId(pub u32);
 
@@ -17,7 +17,7 @@ impl ControlId {
     pub const WHITE_BALANCE_AUTOMATIC: ControlId = ControlId(0x0098_090c);
     /// Automatic gain: 0 off, 1 on.
     pub const GAIN_AUTOMATIC: ControlId = ControlId(0x0098_0912);
-    /// Gain, in steps of the camera.
+    /// Gain, in steps that the camera defines.
     pub const GAIN: ControlId = ControlId(0x0098_0913);
     /// White-balance colour temperature, K.
     pub const WHITE_BALANCE: ControlId = ControlId(0x0098_091a);
@@ -25,11 +25,11 @@ impl ControlId {
     pub const EXPOSURE_AUTOMATIC: ControlId = ControlId(0x009a_0901);
     /// Exposure time, in units of 100 µs.
     pub const EXPOSURE: ControlId = ControlId(0x009a_0902);
-    /// Focus, in steps of the camera.
+    /// Focus, in steps that the camera defines.
     pub const FOCUS: ControlId = ControlId(0x009a_090a);
     /// Automatic focus: 0 off, 1 on.
     pub const FOCUS_AUTOMATIC: ControlId = ControlId(0x009a_090c);
-    /// Zoom, in steps of the camera. In a DIGIT, this control sets the LEDs.
+    /// Zoom, in steps that the camera defines. In a DIGIT sensor, this control sets the LED colour instead.
     pub const ZOOM: ControlId = ControlId(0x009a_090d);
 }
 
@@ -39,35 +39,35 @@ impl fmt::Display for ControlId {
     }
 }
 
-/// Value type of a control.
+/// Type of the value of a camera control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ControlKind {
-    /// Whole number within a range.
+    /// Whole number between the minimum and the maximum of the control.
     Whole,
-    /// Flag: 0 or 1.
+    /// Flag with the value 0 for off or 1 for on.
     Flag,
-    /// Choice by number.
+    /// Choice from a menu, by the number of the entry.
     Choice,
     /// Button: no value; setting it triggers an action.
     Button,
-    /// Any other type.
+    /// Type that is not a whole number, flag, choice or button.
     Other,
 }
 
-/// Control of a camera. A plain value, which gets no further fields.
+/// Control of a camera, with its range. This struct gets no further field.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Control {
-    /// Control number.
+    /// Number of the control in the kernel.
     pub id: ControlId,
-    /// Name given by the camera.
+    /// Name of the control, as the camera or its kernel driver states it.
     pub name: String,
-    /// Value type.
+    /// Type of the control's value.
     pub kind: ControlKind,
-    /// Minimum value.
+    /// Minimum value of the control.
     pub least: i32,
-    /// Maximum value.
+    /// Maximum value of the control.
     pub greatest: i32,
-    /// Default value.
+    /// Default value of the control.
     pub usual: i32,
     /// True if another control overrides this control, so that a new value has no effect.
     pub is_inactive: bool,
@@ -99,7 +99,7 @@ impl Control {
 }
 
 impl Camera {
-    /// Lists all controls, by number.
+    /// Lists the enabled controls of the camera, in ascending order of their numbers.
     ///
     /// # Errors
     /// [`V4l2Error::Gone`] if the camera was unplugged.
@@ -124,7 +124,7 @@ impl Camera {
         Ok(found)
     }
 
-    /// Properties of a control; `None` if the camera lacks it.
+    /// Properties of the control `id`; `None` if the camera lacks this control or has disabled it.
     ///
     /// # Errors
     /// [`V4l2Error::Gone`] if the camera was unplugged.
@@ -140,7 +140,7 @@ impl Camera {
         }
     }
 
-    /// Reads the value of a control.
+    /// Reads the value of the control `id`.
     ///
     /// # Errors
     /// [`V4l2Error`] if the control does not exist or the camera is gone.
@@ -151,7 +151,7 @@ impl Camera {
         Ok(value.value)
     }
 
-    /// Sets a control and returns the resulting value, which may differ from the requested value.
+    /// Sets the control `id` to `value`. Returns the value that the camera then has, which may differ from `value`.
     ///
     /// # Errors
     /// [`V4l2Error`] if the control does not exist or rejects the value, or the camera is gone.
@@ -162,10 +162,10 @@ impl Camera {
         self.value(id)
     }
 
-    /// Triggers a button control, which has no value to read back.
+    /// Triggers the button control `id`, which has no value to read back.
     ///
     /// # Errors
-    /// As [`set`](Camera::set).
+    /// The errors of [`set`](Camera::set).
     pub fn press(&mut self, id: ControlId) -> Result<(), V4l2Error> {
         let mut set = ControlValue { id: id.0, value: 1 };
         ioctls::set_control(self.fd(), &mut set)

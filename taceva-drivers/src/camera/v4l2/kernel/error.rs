@@ -1,4 +1,4 @@
-//! Errors of camera calls.
+//! Errors of the kernel interface to a camera.
 
 use std::io;
 use std::path::PathBuf;
@@ -7,16 +7,16 @@ use thiserror::Error;
 
 use super::picture::PictureFormat;
 
-/// Failure of a call to a camera.
+/// Failure of a kernel call for a camera.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum V4l2Error {
-    /// The device file did not open.
+    /// The device file could not be opened.
     #[error("cannot open {path:?}: {source}")]
     Open {
         /// Path of the device file.
         path: PathBuf,
-        /// Error of the system.
+        /// Error that the operating system returned.
         source: io::Error,
     },
     /// The file is not a camera, or the camera does not support streaming.
@@ -24,15 +24,15 @@ pub enum V4l2Error {
     NoCamera {
         /// Path of the device file.
         path: PathBuf,
-        /// Missing capability, as text.
+        /// Capability that the device file lacks, as text.
         why: String,
     },
-    /// The camera does not support the requested format.
+    /// The camera does not support the requested size or pixel format.
     #[error("the camera does not support {wanted}, expected one of {offered}")]
     Format {
         /// Requested format.
         wanted: PictureFormat,
-        /// Supported formats, as text.
+        /// Formats and sizes that the camera supports, as text.
         offered: String,
     },
     /// The camera does not support the requested rate.
@@ -40,7 +40,7 @@ pub enum V4l2Error {
     Rate {
         /// Requested rate, Hz.
         wanted: f64,
-        /// Rate of the camera, Hz.
+        /// Rate that the camera uses instead, Hz.
         found: f64,
     },
     /// Another program uses the camera.
@@ -55,18 +55,18 @@ pub enum V4l2Error {
         /// Operation that failed.
         doing: &'static str,
     },
-    /// The kernel rejected the call.
+    /// The kernel rejected a call for another reason.
     #[error("cannot {doing}: {source}")]
     Refused {
         /// Operation that failed.
         doing: &'static str,
-        /// Error of the system.
+        /// Error that the operating system returned.
         source: io::Error,
     },
 }
 
 impl V4l2Error {
-    /// Converts a system error that occurred while `doing`.
+    /// Converts a system error that occurred during the operation `doing`.
     pub(crate) fn of(doing: &'static str, source: rustix::io::Errno) -> V4l2Error {
         match source {
             rustix::io::Errno::NODEV | rustix::io::Errno::NXIO => V4l2Error::Gone { doing },

@@ -10,7 +10,7 @@ use std::ptr::NonNull;
 use rustix::io::Errno;
 use rustix::mm::{MapFlags, ProtFlags, mmap, munmap};
 
-/// Mapping of one buffer, until it is dropped.
+/// Read-only mapping of one kernel buffer. Dropping this value removes the mapping.
 #[derive(Debug)]
 pub(crate) struct Mapped {
     start: NonNull<u8>,
@@ -21,7 +21,7 @@ pub(crate) struct Mapped {
 unsafe impl Send for Mapped {}
 
 impl Mapped {
-    /// Maps `length` bytes of the kernel's buffer at `offset` of `camera`, read-only.
+    /// Maps `length` bytes of a kernel buffer, read-only. `offset` identifies the buffer within the device file `camera`.
     pub(crate) fn new(camera: BorrowedFd<'_>, offset: u64, length: usize) -> Result<Mapped, Errno> {
         // SAFETY: the kernel chooses an unused address. The kernel gave the offset and the length for a buffer, and rejects others.
         let start = unsafe {
@@ -38,8 +38,8 @@ impl Mapped {
         Ok(Mapped { start, length })
     }
 
-    /// First `used` bytes, or all if the buffer is shorter. The caller has dequeued the buffer, so the kernel does not write. The bytes may be read
-    /// until the stream queues the buffer again.
+    /// First `used` bytes of the buffer, or all if it is shorter. The caller has dequeued the buffer, so the kernel does not write to it. The
+    /// bytes may be read until the stream queues the buffer again.
     pub(crate) fn bytes(&self, used: usize) -> &[u8] {
         // SAFETY: the mapping is readable until `self` is dropped and at least this long; every byte is a valid `u8`. The caller ensures that the
         // kernel does not write meanwhile.

@@ -1,4 +1,4 @@
-//! Structures and numbers of `linux/videodev2.h`, and the ioctl calls that exchange them.
+//! Structures and constants of `linux/videodev2.h`, and the ioctl calls that exchange the structures with the kernel.
 #![expect(
     unsafe_code,
     reason = "an ioctl is a pointer for the kernel to read and write"
@@ -9,17 +9,17 @@ use std::os::fd::BorrowedFd;
 use rustix::io::Errno;
 use rustix::ioctl::{Updater, ioctl, opcode};
 
-/// Buffer type used here: single-plane video capture.
+/// Buffer type of all calls: single-plane video capture.
 pub(crate) const CAPTURE: u32 = 1;
-/// Memory type used here: kernel buffers that the program maps.
+/// Memory type of all buffers: kernel memory that the program maps.
 pub(crate) const SHARED: u32 = 1;
 
-/// Capability bits of a device.
+/// Capability bit for video capture. The next bits mean streaming, and that [`Capability::own`] is valid.
 pub(crate) const CAN_CAPTURE: u32 = 0x1;
 pub(crate) const CAN_STREAM: u32 = 0x0400_0000;
 pub(crate) const TELLS_OF_ITSELF: u32 = 0x8000_0000;
 
-/// Identity and capabilities of a device.
+/// Identity and capabilities of a video device, from the kernel.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Capability {
@@ -27,14 +27,14 @@ pub(crate) struct Capability {
     pub(crate) card: [u8; 32],
     pub(crate) bus: [u8; 32],
     pub(crate) version: u32,
-    /// Capabilities of the whole device.
+    /// Capability bits of the physical device, over all its device files.
     pub(crate) all: u32,
-    /// Capabilities of this device file.
+    /// Capability bits of the opened device file.
     pub(crate) own: u32,
     pub(crate) reserved: [u32; 3],
 }
 
-/// One supported format.
+/// One pixel format that the camera supports.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct FormatName {
@@ -47,19 +47,19 @@ pub(crate) struct FormatName {
     pub(crate) reserved: [u32; 3],
 }
 
-/// One supported size of a format.
+/// One image size that the camera supports for a pixel format.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Size {
     pub(crate) index: u32,
     pub(crate) pixels: u32,
-    /// 1 if the numbers are width and height; otherwise they are ranges and steps.
+    /// 1 if `numbers` begins with one width and height; otherwise `numbers` holds ranges and steps.
     pub(crate) kind: u32,
     pub(crate) numbers: [u32; 6],
     pub(crate) reserved: [u32; 2],
 }
 
-/// Image format.
+/// Image format that the program requests and the camera sets.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Format {
@@ -68,9 +68,9 @@ pub(crate) struct Format {
     pub(crate) width: u32,
     pub(crate) height: u32,
     pub(crate) pixels: u32,
-    /// 1 for progressive images.
+    /// Interlacing: 1 for progressive images.
     pub(crate) field: u32,
-    /// Row stride, bytes.
+    /// Distance between the starts of two rows, bytes.
     pub(crate) stride: u32,
     /// Maximum size of an image, bytes.
     pub(crate) bytes: u32,
@@ -105,15 +105,15 @@ impl Default for Format {
     }
 }
 
-/// Frame rate, as the duration of one frame.
+/// Frame rate of the camera, stored as the duration of one frame.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rate {
     pub(crate) kind: u32,
-    /// 0x1000 if the duration can be set.
+    /// Capability bits: 0x1000 if the frame duration can be set.
     pub(crate) capability: u32,
     pub(crate) mode: u32,
-    /// Duration of a frame, s: numerator and denominator.
+    /// Numerator and denominator of the frame duration, s.
     pub(crate) time: [u32; 2],
     pub(crate) rest: [u32; 46],
 }
@@ -130,7 +130,7 @@ impl Default for Rate {
     }
 }
 
-/// Number of shared buffers.
+/// Request for `count` image buffers that the kernel shares with the program.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Request {
@@ -140,7 +140,7 @@ pub(crate) struct Request {
     pub(crate) rest: [u32; 2],
 }
 
-/// A buffer with its image.
+/// Description of one image buffer and of the image in it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Buffer {
@@ -151,13 +151,13 @@ pub(crate) struct Buffer {
     pub(crate) flags: u32,
     pub(crate) field: u32,
     pub(crate) padding: u32,
-    /// Time of capture: s and µs.
+    /// Time stamp of the image: whole seconds, and microseconds within the second.
     pub(crate) time: [i64; 2],
     pub(crate) code: [u32; 4],
     /// Sequence number, increased by one per captured image.
     pub(crate) number: u32,
     pub(crate) memory: u32,
-    /// Offset for mapping the buffer, if `memory` is [`SHARED`]. Otherwise the kernel stores a pointer here.
+    /// Offset at which the program maps the buffer, if `memory` is [`SHARED`]. For other memory types this field holds a pointer.
     pub(crate) offset: u64,
     pub(crate) length: u32,
     pub(crate) reserved: u32,
@@ -165,13 +165,13 @@ pub(crate) struct Buffer {
     pub(crate) end: u32,
 }
 
-/// Flag of a damaged image.
+/// Bit of [`Buffer::flags`] that marks the image as damaged.
 pub(crate) const DAMAGED: u32 = 0x40;
-/// Mask of the bits of `flags` for the time-stamp clock. [`MONOTONIC`] is the value for the monotonic clock.
+/// Mask for the bits of [`Buffer::flags`] that name the clock of the time stamp. [`MONOTONIC`] is the value for the monotonic clock.
 pub(crate) const CLOCKS: u32 = 0xe000;
 pub(crate) const MONOTONIC: u32 = 0x2000;
 
-/// Properties of a control.
+/// Properties of a camera control, such as its range and default value.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ControlInfo {
@@ -186,10 +186,10 @@ pub(crate) struct ControlInfo {
     pub(crate) reserved: [u32; 2],
 }
 
-/// Flag that requests the next control after the given number.
+/// Bit that is set in a control number to query the control with the next higher number.
 pub(crate) const NEXT_CONTROL: u32 = 0x8000_0000;
 
-/// Value of a control.
+/// Number and value of a camera control.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ControlValue {
@@ -197,7 +197,7 @@ pub(crate) struct ControlValue {
     pub(crate) value: i32,
 }
 
-/// Defines an ioctl call with one structure, repeated if a signal interrupts it.
+/// Defines a function for an ioctl call whose argument is one structure. The function repeats a call that a signal interrupts.
 macro_rules! call {
     ($(#[$doc:meta])* $name:ident, $direction:ident, $number:literal, $structure:ty) => {
         $(#[$doc])*

@@ -4,17 +4,17 @@ use std::fmt;
 
 use super::ioctls::Format;
 
-/// Pixel format, as four letters.
+/// Code of a pixel format: four letters packed in a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FourCc(u32);
 
 impl FourCc {
-    /// Two bytes per pixel: a luminance for each, a colour for each pair.
+    /// Format with two bytes per pixel: one luminance for each pixel, two colour values for each pair of pixels.
     pub const YUYV: FourCc = FourCc::new(*b"YUYV");
-    /// One JPEG file per image.
+    /// Format in which each image is a JPEG file.
     pub const MJPG: FourCc = FourCc::new(*b"MJPG");
 
-    /// Converts the kernel's number.
+    /// Creates the code from the kernel's number of a pixel format.
     pub(crate) const fn of(number: u32) -> FourCc {
         FourCc(number)
     }
@@ -23,7 +23,7 @@ impl FourCc {
         self.0
     }
 
-    /// Creates the code from four letters.
+    /// Creates the code of a pixel format from its four letters.
     pub const fn new(letters: [u8; 4]) -> FourCc {
         FourCc(u32::from_le_bytes(letters))
     }
@@ -36,14 +36,14 @@ impl fmt::Display for FourCc {
     }
 }
 
-/// Requested image format: a plain value that gets no further fields.
+/// Requested image size and pixel format. This struct gets no further field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PictureFormat {
-    /// Width, pixels.
+    /// Width of the image, pixels.
     pub width: u32,
-    /// Height, pixels.
+    /// Height of the image, pixels.
     pub height: u32,
-    /// Pixel format.
+    /// Pixel format of the image.
     pub pixels: FourCc,
 }
 
@@ -53,7 +53,7 @@ impl fmt::Display for PictureFormat {
     }
 }
 
-/// Conversion from YUYV to colours.
+/// Standard for the conversion of YUYV pixels to RGB.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coding {
     /// ITU-R BT.601, luminance 16 to 235.
@@ -66,16 +66,16 @@ pub enum Coding {
     Full709,
 }
 
-/// Image format set at a camera.
+/// Image format that the camera has set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GivenFormat {
     /// Size and pixel format, as requested.
     pub picture: PictureFormat,
-    /// Row stride, bytes; 0 for compressed images.
+    /// Distance between the starts of two rows, bytes; 0 for compressed images.
     pub stride: u32,
-    /// Size of an image, bytes; the maximum size for compressed images.
+    /// Size of an uncompressed image, bytes. For compressed images, the maximum size.
     pub bytes: u32,
-    /// Colour coding.
+    /// Standard for the conversion of YUYV pixels to RGB.
     pub coding: Coding,
 }
 
@@ -84,7 +84,7 @@ const CODING_601: u32 = 1;
 const CODING_709: u32 = 2;
 const RANGE_FULL: u32 = 1;
 impl Coding {
-    /// Coding of the kernel's image format.
+    /// Conversion standard that `format` of the kernel states. An unknown coding follows the colour space. An unknown range counts as limited.
     pub(crate) fn of(format: &Format) -> Coding {
         let is_709 = match format.coding {
             CODING_709 => true,

@@ -17,12 +17,12 @@ pub struct Stream {
     buffers: Vec<Mapped>,
 }
 
-/// Number of buffers. If the reader is slower, images are lost, and image numbers have gaps.
+/// Number of image buffers. The camera drops images while all buffers wait for the reader, and the image numbers then have gaps.
 const BUFFERS: u32 = 4;
 const MICROSECOND_NS: u64 = 1000;
 
 impl Stream {
-    /// Starts streaming. On failure the camera is closed and can be opened again.
+    /// Starts the image stream of `camera`. A failure closes the camera, which can then be opened again.
     ///
     /// # Errors
     /// [`V4l2Error::Busy`] if another program uses the camera, [`V4l2Error::Gone`] if the camera was unplugged.
@@ -64,7 +64,7 @@ impl Stream {
             .map_err(|source| V4l2Error::of("return a buffer", source))
     }
 
-    /// Waits up to `patience` for the next image; `None` if none arrives.
+    /// Waits up to `patience` for the next image; `None` if none arrives in that time, or if a signal interrupts the wait.
     ///
     /// # Errors
     /// [`V4l2Error::Gone`] if the camera was unplugged.
@@ -127,7 +127,7 @@ fn buffer(index: u32) -> Buffer {
     }
 }
 
-/// Image in a buffer. Dropping it queues the buffer again.
+/// Image in a kernel buffer. Dropping this value returns the buffer to the kernel for a further image.
 #[derive(Debug)]
 pub struct Filled<'a> {
     stream: &'a mut Stream,
@@ -145,7 +145,7 @@ impl Filled<'_> {
         }
     }
 
-    /// Sequence number of the image. A gap means missed images.
+    /// Sequence number of the image. A gap between two numbers means that images were lost.
     pub fn number(&self) -> u32 {
         self.taken.number
     }
@@ -155,7 +155,7 @@ impl Filled<'_> {
         self.taken.flags & ioctls::DAMAGED != 0
     }
 
-    /// Kernel time stamp on the monotonic clock; `None` if the driver uses another clock.
+    /// Kernel time stamp of the image on the monotonic clock; `None` if the kernel's camera driver uses another clock.
     pub fn taken_at(&self) -> Option<Duration> {
         if self.taken.flags & ioctls::CLOCKS != ioctls::MONOTONIC {
             return None;
