@@ -15,7 +15,7 @@ use std::time::Duration;
 pub struct MonotonicClock;
 
 impl MonotonicClock {
-    /// Current time; never goes back.
+    /// Current time since the zero of this clock; never decreases.
     #[cfg(unix)]
     pub fn now(self) -> Duration {
         use rustix::time::{ClockId, clock_gettime};
@@ -23,14 +23,14 @@ impl MonotonicClock {
         Duration::try_from(clock_gettime(ClockId::Monotonic)).unwrap_or_default()
     }
 
-    /// Current time; never goes back.
+    /// Current time since the zero of this clock; never decreases.
     #[cfg(not(unix))]
     pub fn now(self) -> Duration {
         static BEGAN: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
         BEGAN.get_or_init(std::time::Instant::now).elapsed()
     }
 
-    /// Current time, s, as in stamps.
+    /// Current time in seconds, comparable with a [`Stamp`](taceva_core::Stamp).
     pub fn now_s(self) -> f64 {
         self.now().as_secs_f64()
     }

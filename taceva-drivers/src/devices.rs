@@ -1,4 +1,4 @@
-//! List of all drivers and the devices they find, as data. Opens nothing.
+//! List of all drivers and of the devices that they find. Listing opens no device.
 
 use serde::Serialize;
 use taceva_core::{
@@ -11,9 +11,9 @@ use crate::drivers::Drivers;
 /// Drivers of a program, the devices they find, and failed searches.
 #[derive(Debug)]
 pub struct Devices {
-    /// All drivers: sensors, robots, force transducers, lightings, changers; by key within a kind.
+    /// Drivers of sensors, robots, force transducers, lightings and changers; sorted by key within each kind.
     pub drivers: Vec<ListedDriver>,
-    /// Drivers of enabling switches, by key.
+    /// Drivers of enabling switches, sorted by key.
     pub switches: Vec<ListedSwitch>,
     /// All devices found, in the order of the drivers.
     pub found: Vec<ListedDevice>,
@@ -71,10 +71,10 @@ impl ListedDevice {
     }
 }
 
-/// Driver with facts about its device. Unknown facts are absent.
+/// Driver with the known facts about its device.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ListedDriver {
-    /// Key of the driver.
+    /// Key of the driver, such as `sim/robot`.
     pub key: String,
     /// Title of the driver.
     pub title: String,
@@ -82,10 +82,10 @@ pub struct ListedDriver {
     pub kind: DriverKind,
     /// Origin of the readings: a real device, a simulation or a replay.
     pub source: DriverSource,
-    /// Size and format of its frames.
+    /// Size and format of the sensor's frames.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frame: Option<String>,
-    /// Frames or readings a second.
+    /// Rate of the frames or readings, Hz.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rate_hz: Option<f64>,
     /// True if the gel is opaque.
@@ -100,30 +100,30 @@ pub struct ListedDriver {
     /// Maximum force on the gel, or measuring range of the transducer, N.
     #[serde(rename = "Fz_max_N", skip_serializing_if = "Option::is_none")]
     pub force_max_n: Option<f64>,
-    /// Components that a force transducer measures.
+    /// Components of force and torque that a transducer measures.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axes: Option<String>,
     /// Speed limit of a robot, mm/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_max_mm_s: Option<f64>,
-    /// Names of the lighting scenes.
+    /// Names of the scenes that a lighting device can set.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub scenes: Vec<String>,
     /// Names of the items that a changer holds.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub holds: Vec<String>,
-    /// Accepted arguments.
+    /// Arguments that the driver accepts.
     pub arguments: Vec<ListedArgument>,
 }
 
-/// A driver of enabling switches, which a rig file names as `enable` under `[operator]`.
+/// Driver of an enabling switch. A rig file selects it with `enable` under `[operator]`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ListedSwitch {
-    /// Key of the driver.
+    /// Key of the driver, such as `hid/pedal`.
     pub key: String,
     /// Title of the driver.
     pub title: String,
-    /// Accepted arguments.
+    /// Arguments that the driver accepts.
     pub arguments: Vec<ListedArgument>,
 }
 

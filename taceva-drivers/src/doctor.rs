@@ -1,6 +1,6 @@
-//! Diagnosis of the machine: usable devices, problems and remedies. Opens nothing.
+//! Diagnosis of the machine: usable devices, problems and remedies.
 //!
-//! The diagnosis opens no device, because opening a serial port may reset it. It reads permissions, and names the programs of the
+//! The diagnosis opens no device, because opening a serial port may reset the connected device. It reads permissions, and names the programs of the
 //! same user that have a device open.
 
 mod diagnosis;
@@ -21,7 +21,7 @@ pub use usb::UsbDevice;
 use crate::devices::{Devices, devices};
 use crate::drivers::Drivers;
 
-/// Examines the drivers of the program and `machine`. The order of the results is fixed.
+/// Examines `drivers` and `machine`. The order of the results is fixed.
 pub fn examine(drivers: &Drivers, machine: &Machine) -> Vec<Diagnosis> {
     let listed = devices(drivers);
     let keys: Vec<&str> = listed

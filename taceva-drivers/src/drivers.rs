@@ -44,7 +44,7 @@ impl Drivers {
         })
     }
 
-    /// Adds the drivers of the plugins of `host`, which run in the process that the user's settings choose. Opens no library.
+    /// Adds the drivers of the plugins of `host`. Loads no plugin. The user's settings decide in which process a plugin runs later.
     ///
     /// # Errors
     /// [`RegistryError`] if another driver already has the key of a plugin.
@@ -72,7 +72,7 @@ impl Drivers {
     }
 }
 
-/// Opens the device of `selector`.
+/// Opens the device that `selector` names, with a driver from `registry`.
 ///
 /// # Errors
 /// [`OpenError`] for an unknown driver, invalid arguments, or a device that does not open.

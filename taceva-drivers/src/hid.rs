@@ -1,4 +1,4 @@
-//! HID devices: scales, and pedals that a person holds.
+//! HID devices: scales as force transducers, and pedals as enabling switches.
 
 mod listener;
 pub mod pedal;

@@ -39,7 +39,7 @@ pub(crate) fn hexadecimal(text: &str) -> Vec<u8> {
     digits.chunks_exact(2).map(byte).collect()
 }
 
-/// Current time on the clock for stamps of real devices.
+/// Current time of the clock that stamps the readings of real devices.
 pub(crate) fn monotonic() -> std::time::Duration {
     crate::clock::MonotonicClock.now()
 }

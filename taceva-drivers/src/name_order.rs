@@ -20,7 +20,7 @@ pub(crate) fn compare(first: &str, second: &str) -> Ordering {
     left.len().cmp(&right.len()).then_with(|| first.cmp(second))
 }
 
-/// Splits off the leading run of digits or of other characters.
+/// Splits `text` after its leading run, which contains either only digits or no digit.
 fn split(text: &str) -> (&str, &str) {
     let digits = text.starts_with(|letter: char| letter.is_ascii_digit());
     let end = text
@@ -29,7 +29,7 @@ fn split(text: &str) -> (&str, &str) {
     text.split_at(end)
 }
 
-/// Digits without leading zeros; `None` for other text. Of two results with different lengths, the longer is the larger number.
+/// Digits of `part` without leading zeros; `None` if `part` starts with another character. A longer result is a larger number.
 fn number(part: &str) -> Option<&str> {
     part.starts_with(|letter: char| letter.is_ascii_digit())
         .then(|| part.trim_start_matches('0'))

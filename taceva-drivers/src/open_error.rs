@@ -6,10 +6,10 @@ use taceva_core::{ArgError, DriverError, ErrorKind, RegistryError};
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum OpenError {
-    /// Unknown driver.
+    /// The driver is unknown.
     #[error(transparent)]
     Unknown(#[from] RegistryError),
-    /// Invalid arguments.
+    /// An argument is invalid.
     #[error("{selector}: {source}")]
     Arguments {
         /// Text of the selector.

@@ -1,15 +1,15 @@
-//! Clock of a device that replaces a real device: a replay, or a wrapper that fails on purpose.
+//! Clock of a device that stands in for a real device: a replay, or a wrapper that injects faults.
 
 use std::time::Duration;
 
 use crate::clock::MonotonicClock;
 
-/// Clock for which a device can wait.
+/// Clock on which a device can wait for a given time.
 pub trait Pace: Send {
     /// Current time, s since an arbitrary start. Never decreases.
     fn now_s(&self) -> f64;
 
-    /// Waits until `time_s`; returns at once if it has passed.
+    /// Waits until the time `time_s`, s; returns at once if this time has passed.
     fn wait_until(&mut self, time_s: f64);
 
     /// True if time passes even if no caller waits. A slow caller may then miss frames.
@@ -23,7 +23,7 @@ pub struct VirtualPace {
 }
 
 impl VirtualPace {
-    /// Creates virtual time that starts at `now_s`, s.
+    /// Creates a clock of virtual time that starts at `now_s`, s.
     pub const fn starting_at(now_s: f64) -> VirtualPace {
         VirtualPace { now_s }
     }
@@ -41,7 +41,7 @@ impl Pace for VirtualPace {
     }
 }
 
-/// Time of the machine, which stamps readings of all real devices.
+/// Real time, on the clock that stamps readings of all real devices.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RealPace;
 

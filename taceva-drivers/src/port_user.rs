@@ -1,4 +1,4 @@
-//! Other programs that have a device open. Without a lock, these programs would take its answers away unnoticed.
+//! Other programs that have a device open. If the device is not locked, such a program may receive answers that belong to this program.
 
 use std::fs::{self, DirEntry, Metadata};
 use std::os::unix::fs::{FileTypeExt, MetadataExt};

@@ -6,7 +6,7 @@ use rustix::fs::{Access as Wanted, access};
 use rustix::io::Errno;
 use taceva_core::Access;
 
-/// Access of this user to read and write a device file. The remedy for missing access names `group`, the usual owner of the file.
+/// Access of this user to read and write a device file. The remedy for missing access names `group`, which usually owns the file.
 pub(crate) fn access_of(path: &Path, group: &str) -> Access {
     match access(path, Wanted::READ_OK | Wanted::WRITE_OK) {
         Err(Errno::ACCESS | Errno::PERM) => Access::Denied {

@@ -29,7 +29,7 @@ impl Selector {
         &self.arguments
     }
 
-    /// Serial number that selects one of several connected devices; `None` without the argument.
+    /// Serial number that selects one of several connected devices; `None` without the argument `serial`.
     ///
     /// ```
     /// use taceva_drivers::Selector;
@@ -92,7 +92,7 @@ impl fmt::Display for Selector {
     }
 }
 
-/// Invalid selector.
+/// A selector that names no driver.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{text:?} names no driver, expected `driver` or `driver:key=value;key=value`, such as `sim/gelsight:seed=3`"

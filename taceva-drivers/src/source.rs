@@ -29,7 +29,8 @@ pub trait FrameSource: Send {
     /// Writes the frame at `position` into the caller's buffer.
     ///
     /// # Errors
-    /// [`SourceError`] if the frame is missing, damaged, or differs in size or format. Other frames remain readable.
+    /// [`SourceError`] if the frame is missing or damaged, or its size or format differs from [`info`](FrameSource::info).
+    /// Other frames remain readable.
     /// # Panics
     /// If `position` is out of range, or `into` does not match [`info`](FrameSource::info): bugs of the caller.
     fn read(&mut self, position: usize, into: FrameMut<'_>) -> Result<(), SourceError>;

@@ -22,10 +22,10 @@ pub struct Diagnosis {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum State {
-    /// Present and usable.
+    /// The subject is present and usable.
     Good,
-    /// Absent, which is a problem only if the device is needed.
+    /// The subject is absent. This is a problem only if the device is needed.
     Absent,
-    /// Present but not usable.
+    /// The subject is present but not usable.
     Problem,
 }

@@ -8,7 +8,7 @@ use super::usb::{UsbDevice, plugged_in};
 use super::user::User;
 use crate::name_order;
 
-/// Maximum length of a file that is read, bytes. The longest file is the group table.
+/// Maximum number of bytes that the diagnosis reads of a system file. The largest such file is the table of groups.
 const TEXT_BYTES: u64 = 1 << 20;
 
 /// A machine, described by its files and its list of USB devices.
@@ -28,7 +28,7 @@ impl Machine {
         }
     }
 
-    /// Describes the machine with root folder `root` and no USB devices, such as a mounted image or a test.
+    /// Describes a machine whose files lie below the folder `root`, such as a mounted disk image. Its list of USB devices is empty.
     pub fn at(root: impl Into<PathBuf>) -> Machine {
         Machine {
             root: root.into(),
@@ -52,7 +52,7 @@ impl Machine {
         User::parse(&status, &passwords, &groups)
     }
 
-    /// Names in a folder, sorted; empty if there is no such folder.
+    /// Sorted names of the files in a folder; empty if the folder does not exist.
     pub(super) fn names(&self, folder: &str) -> Vec<String> {
         let entries = fs::read_dir(self.path(folder)).into_iter().flatten();
         let mut names: Vec<String> = entries
@@ -70,7 +70,7 @@ impl Machine {
         Some(String::from_utf8_lossy(&bytes).trim().to_owned())
     }
 
-    /// Full path of `path`, which has no leading `/`.
+    /// Joins the root folder of this machine with `path`, which has no leading `/`.
     pub(crate) fn path(&self, path: &str) -> PathBuf {
         self.root.join(Path::new(path))
     }

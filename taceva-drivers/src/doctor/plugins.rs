@@ -6,7 +6,7 @@ use taceva_host::{Keeping, PluginHost};
 
 use super::{Diagnosis, State};
 
-/// Isolation in which each plugin of `host` would run, by id. The result is from a process that confines itself and loads no plugin.
+/// Reports the isolation in which each plugin of `host` would run, and each plugin in quarantine. Loads no plugin.
 pub fn examine_plugins(host: &Arc<PluginHost>) -> Vec<Diagnosis> {
     let findings = host.plugins().iter().map(|plugin| {
         let id = plugin.id();

@@ -1,4 +1,4 @@
-//! Drivers that open a device file, each declared in the folder of its driver.
+//! Registry of the drivers that open a device file.
 
 use taceva_core::{DriverKey, inventory};
 
@@ -21,15 +21,15 @@ pub(crate) struct PortDriver {
     pub(crate) class: PortClass,
     /// Key of the driver.
     pub(crate) key: DriverKey,
-    /// Argument of its selector that names the file.
+    /// Selector argument that names the device file, such as `port`.
     pub(crate) argument: &'static str,
-    /// Function that is true if the driver can use the named file below `/dev`, according to system files.
+    /// Returns true if the driver can open the file with this name below `/dev`, according to the system files of the machine.
     pub(crate) reads: fn(&Machine, &str) -> bool,
 }
 
 inventory::collect!(PortDriver);
 
-/// Drivers that open files of `class`, by key.
+/// Drivers that open files of `class`, sorted by key.
 pub(super) fn drivers_of(class: PortClass) -> Vec<&'static PortDriver> {
     let mut drivers: Vec<&PortDriver> = inventory::iter::<PortDriver>
         .into_iter()

@@ -13,7 +13,7 @@ pub(super) struct PortKind {
     /// Codes of the diagnosis for usable, denied and absent files.
     codes: [&'static str; 3],
     prefixes: &'static [&'static str],
-    /// Source of a device's name: folder of the class, and file in the folder of the device. `None` for a class without names.
+    /// Location of the device names: a system folder, and a file below the folder of each device. `None` for a class without names.
     name: Option<(&'static str, &'static str)>,
     noun: &'static str,
     if_absent: &'static str,
@@ -91,7 +91,7 @@ pub(super) fn examine(
     }]
 }
 
-/// Other programs that have the device file open, as text; empty if none is found.
+/// Text that names other programs with an open handle of the device file; empty if none is found.
 fn in_use(machine: &Machine, name: &str) -> String {
     #[cfg(unix)]
     let others =
@@ -129,7 +129,7 @@ impl PortKind {
         shown(title.unwrap_or(self.noun))
     }
 
-    /// Selectors that open the file, as text; empty if no driver reads it.
+    /// Text that lists the selectors for this device file; empty if no driver can open it.
     fn opened(&self, machine: &Machine, name: &str, keys: &[&str]) -> String {
         let selectors: Vec<String> = drivers_of(self.class)
             .into_iter()

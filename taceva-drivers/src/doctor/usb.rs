@@ -126,7 +126,7 @@ pub(super) fn examine(machine: &Machine) -> Vec<Diagnosis> {
     findings.collect()
 }
 
-/// Diagnosis for a system without USB, such as a container, or without a device list.
+/// Diagnosis for a system whose USB devices cannot be listed, such as a container. `why` is the reason.
 fn unknown(why: &str) -> Diagnosis {
     Diagnosis {
         code: "usb-unknown",

@@ -3,18 +3,19 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::Metadata;
 
-/// User, with the groups of this session and the names of all groups.
+/// User who runs the program, with the groups of this process and the names of all groups.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct User {
     id: u32,
     groups: BTreeSet<u32>,
     group_names: BTreeMap<u32, String>,
-    /// Groups that list the user as a member, even if this session lacks them.
+    /// Groups that list the user as a member. This process may lack a group that the user joined after login.
     entitled: BTreeSet<u32>,
 }
 
 impl User {
-    /// Parses the user from the Linux files `/proc/self/status`, `/etc/passwd` and `/etc/group`; `None` if the first lacks the ids.
+    /// Parses the user from the text of the Linux files `/proc/self/status`, `/etc/passwd` and `/etc/group`. `None` if `status` lacks the user or
+    /// group ids.
     pub(super) fn parse(status: &str, passwords: &str, groups: &str) -> Option<User> {
         let numbers = |label: &str| -> Option<Vec<u32>> {
             let line = status.lines().find_map(|line| line.strip_prefix(label))?;

@@ -1,4 +1,4 @@
-//! `gcode/grbl`: machines with GRBL 1.1 on a serial port.
+//! Driver `gcode/grbl`: machines with the firmware GRBL 1.1 on a serial port.
 
 mod factory;
 mod line;

@@ -1,4 +1,4 @@
-//! Options and limits of a machine on a serial port, common to all dialects.
+//! Options and limits of G-code machines on a serial port, for GRBL and Marlin.
 
 use taceva_core::{
     ArgSpec, ArgValue, Args, DriverError, DriverKey, ErrorKind, Point, Pose, Rotation, Speed,
@@ -15,13 +15,13 @@ pub(super) struct SerialOptions {
     pub(super) speed_max: Speed,
 }
 
-/// Operation name of a move, for errors.
+/// Name of a move in error messages.
 pub(super) const MOVE: &str = "move the machine";
-/// Seconds per minute; machines use mm/min.
+/// Seconds per minute, to convert mm/s to mm/min.
 const SECONDS: f64 = 60.0;
 
 impl SerialOptions {
-    /// Arguments of a machine.
+    /// Arguments that every driver of a G-code machine accepts.
     pub(super) fn arguments() -> Vec<ArgSpec> {
         let mut arguments = vec![
             ArgSpec::path("port")
@@ -48,7 +48,7 @@ impl SerialOptions {
         })
     }
 
-    /// Rejects a motion that a machine with three axes cannot make.
+    /// Rejects a motion with an invalid pose, with a rotation, or above the speed limit of the machine.
     ///
     /// # Errors
     /// `InvalidArgument` and `OutOfRange`, as [`Robot::move_to`](taceva_core::Robot::move_to).
@@ -78,7 +78,7 @@ impl SerialOptions {
     }
 }
 
-/// G-code words of a straight motion to `target`, in mm and mm/min.
+/// G-code command for a straight motion to `target`, in mm and mm/min.
 pub(super) fn straight(target: &Point, speed: Speed) -> String {
     let Point { x, y, z } = target;
     let feed = speed.mm_per_s() * SECONDS;

@@ -1,4 +1,4 @@
-//! Serial link to a machine: writes bytes and commands; a separate thread reads lines. A parser for each dialect interprets the lines.
+//! Serial link to a machine. Callers write commands, a thread reads lines, and the parser of the firmware interprets these lines.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -19,7 +19,7 @@ use crate::link::{Mailbox, monotonic};
 use crate::port_user::other_users;
 use crate::text::shown;
 
-/// Content of a machine's line: an answer, a status, both, or neither.
+/// Content of a line that the machine sent: an answer, a status, both, or neither.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Heard<S> {
     pub(super) answer: Option<Answer>,
@@ -34,7 +34,7 @@ impl<S> Heard<S> {
         status: None,
     };
 
-    /// Creates a line with only an answer.
+    /// Content of a line that is only an answer.
     #[cfg(any(test, feature = "grbl"))]
     pub(super) fn answer(answer: Answer) -> Heard<S> {
         Heard {
@@ -61,11 +61,11 @@ pub(super) enum Answer {
     Busy,
     /// Echo of a number that was sent to the machine.
     Mark(u32),
-    /// A line arrived damaged: the line with this number is expected again. `ok` follows.
+    /// The machine received a damaged line and expects the line with this number again. An `ok` follows.
     Resend(u32),
-    /// Capability, and true if the machine has it.
+    /// Name of a capability, and true if the machine has it.
     Can(String, bool),
-    /// Facts that the machine states about itself, by name: `firmware`.
+    /// Facts that the machine reports about itself: values by name, such as `firmware`.
     Facts(BTreeMap<String, String>),
 }
 
@@ -98,14 +98,14 @@ impl CommandError {
     }
 }
 
-/// Shared writing half of the link.
+/// Writing half of the serial link, shared between threads.
 #[derive(Clone, Debug)]
 pub(super) struct Writer {
     file: Arc<Mutex<File>>,
 }
 
 impl Writer {
-    /// Sends bytes without interleaving.
+    /// Sends `bytes` as a whole: no other thread can send in between.
     pub(super) fn send(&self, bytes: &[u8]) -> io::Result<()> {
         self.file().write_all(bytes)
     }
@@ -189,8 +189,8 @@ impl<S: Clone + Send + 'static> SerialLink<S> {
         &self.statuses
     }
 
-    /// Sends a command; [`answer`](SerialLink::answer) receives its answer. Discards answers to earlier commands, but returns a fault,
-    /// which a machine may report only once.
+    /// Sends a command; [`answer`](SerialLink::answer) receives its answer. Discards answers to earlier commands. A fault among these is returned as
+    /// an error, because a machine may report a fault only once.
     pub(super) fn send(&mut self, command: &str) -> Result<(), CommandError> {
         while let Ok(answer) = self.answers.try_recv() {
             if let Answer::Fault(why) = answer {
@@ -201,7 +201,7 @@ impl<S: Clone + Send + 'static> SerialLink<S> {
         sent.map_err(|error| CommandError::Broken(error.to_string()))
     }
 
-    /// Discards received answers including faults. Called if the state of the machine shows that the answers are outdated.
+    /// Discards received answers, including faults. Callers use this if the state of the machine shows that these answers are outdated.
     #[cfg(feature = "grbl")]
     pub(super) fn forget(&mut self) {
         while self.answers.try_recv().is_ok() {}
@@ -251,7 +251,7 @@ impl<S> Drop for SerialLink<S> {
     }
 }
 
-/// Warning about other programs that have the port at `path` open; `None` without any.
+/// Warning about other programs that have the port at `path` open; `None` if there are none.
 fn warning(path: &str) -> Option<String> {
     let others = other_users(Path::new("/proc"), Path::new(path));
     (!others.is_empty()).then(|| {
@@ -263,7 +263,7 @@ fn warning(path: &str) -> Option<String> {
     })
 }
 
-/// Posts statuses and sends answers until `is_over` is set or the port fails.
+/// Reads lines from the port, posts statuses to `posting` and sends answers to `answers`. Ends once `is_over` is set or the port fails.
 fn read<S: Clone>(
     mut file: File,
     understand: fn(&str) -> Heard<S>,
@@ -301,14 +301,14 @@ fn read<S: Clone>(
     Ok(())
 }
 
-/// Maximum length of a line, bytes. Longer lines are dropped. A printer states all facts about itself in one line.
+/// Maximum length of a line, bytes; longer lines are dropped. The longest lines are the facts of a printer about itself.
 const LINE_MAX: usize = 512;
 
-/// Splits bytes that arrive in pieces of any size into lines.
+/// Splitter of received bytes into lines. The bytes arrive in pieces of any size.
 #[derive(Debug, Default)]
 pub(super) struct Lines {
     waiting: Vec<u8>,
-    /// True if the current line is too long and is dropped.
+    /// True if the current line exceeds the maximum length and will be dropped.
     is_endless: bool,
 }
 

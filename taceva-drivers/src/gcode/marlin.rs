@@ -1,4 +1,4 @@
-//! `gcode/marlin`: printers with Marlin 2 on a serial port.
+//! Driver `gcode/marlin`: printers with the firmware Marlin 2 on a serial port.
 
 mod factory;
 mod line;

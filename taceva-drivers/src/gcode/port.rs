@@ -1,4 +1,4 @@
-//! Opens a serial port as a file: raw, with a baud rate, and locked.
+//! Opens and locks a serial port as a file, in raw mode with a given baud rate.
 
 use std::fs::File;
 use std::io;
@@ -47,7 +47,7 @@ impl PortError {
 /// Opens the serial port at `path` with eight bits, no parity and no flow control, and locks it. Afterwards only root can open the port, and no other process
 /// can lock it.
 ///
-/// A read times out after 0.1 s with 0 bytes.
+/// A read returns 0 bytes after a timeout of 0.1 s.
 pub(super) fn open_line(path: &str, baud: u32) -> Result<File, PortError> {
     let refused = |source: Errno| PortError::Open {
         path: path.to_owned(),

@@ -1,4 +1,4 @@
-//! Serial ports of this machine, by names that do not change with replugging.
+//! List of the serial ports of this machine, with names that stay the same after replugging.
 
 use std::fs;
 use std::path::Path;
@@ -8,7 +8,7 @@ use taceva_core::{DriverKey, Found};
 use crate::present::access_of;
 use crate::text::shown;
 
-/// Lists all connected serial adapters as devices of `driver`. The dialect of a machine is unknown until it is opened.
+/// Lists every connected serial adapter as a device of `driver`. The firmware of the connected machine is unknown until the port is opened.
 pub(super) fn adapters(driver: &DriverKey) -> Vec<Found> {
     adapters_in(Path::new("/"), driver)
 }

@@ -6,12 +6,12 @@ use taceva_core::{DriverError, DriverKey, ErrorKind, Halt};
 
 use super::link::Writer;
 
-/// Halt handle: a latch in the driver, and the bytes that stop the machine.
+/// Halt handle: a flag in the driver that stays set until its release, and the bytes that stop the machine.
 #[derive(Debug)]
 pub(super) struct Stop {
     driver: DriverKey,
     is_halted: AtomicBool,
-    /// True after the robot is dropped. A halt then does nothing.
+    /// True after the robot is dropped. A halt then sends nothing.
     is_gone: AtomicBool,
     writer: Writer,
     /// Bytes of a stop command that the machine executes at once in any state.
@@ -19,7 +19,7 @@ pub(super) struct Stop {
 }
 
 impl Stop {
-    /// Creates the halt handle of the machine at `writer`. `bytes` stop the machine.
+    /// Creates the halt handle of the machine that `writer` reaches. `bytes` stop the machine.
     pub(super) fn new(driver: DriverKey, writer: Writer, bytes: &'static [u8]) -> Stop {
         Stop {
             driver,
@@ -34,7 +34,7 @@ impl Stop {
         self.is_halted.load(Ordering::Acquire)
     }
 
-    /// Releases the latch in the driver. Sends nothing to the machine.
+    /// Clears the flag of a halt in the driver. Sends nothing to the machine.
     pub(super) fn release(&self) {
         self.is_halted.store(false, Ordering::Release);
     }

@@ -11,7 +11,7 @@ use taceva_core::ErrorKind;
 use crate::link::mailbox::Ending;
 use crate::link::{Mailbox, monotonic};
 
-/// Reader of a device's reports, which runs until it is dropped.
+/// Handle of the thread that reads a device's reports. Dropping the handle ends the thread.
 #[derive(Debug)]
 pub(super) struct Listener {
     is_over: Arc<AtomicBool>,
@@ -24,7 +24,7 @@ const LOOK_MS: i32 = 50;
 const REPORT_MAX: usize = 1024;
 
 impl Listener {
-    /// Parses each report with `read` and posts the result to `posting`. A report without a result is skipped.
+    /// Starts a thread that parses each report with `read` and posts the result to `posting`. Skips reports for which `read` returns `None`.
     pub(super) fn start<T: Clone + Send + 'static>(
         device: HidDevice,
         posting: &Arc<Mailbox<T>>,

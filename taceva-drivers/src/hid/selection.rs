@@ -12,7 +12,7 @@ use thiserror::Error;
 use crate::present::access_of;
 use crate::text::shown;
 
-/// Criteria for a HID device. Absent criteria match any device.
+/// Criteria that select a HID device. A criterion of `None` matches any device.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Selection {
     /// Device file, such as `/dev/hidraw0`.
@@ -111,7 +111,7 @@ impl Present {
         }
     }
 
-    /// True if one of the device's collections has this usage.
+    /// True if one of the device's HID collections has this usage page and usage.
     pub(super) fn has_usage(&self, usage: (u16, u16)) -> bool {
         self.usages.contains(&usage)
     }
@@ -169,8 +169,8 @@ impl Selection {
         })
     }
 
-    /// Opens the only matching device. `usage` restricts the search unless vendor and product are given. Without `usage`, at least one criterion is required,
-    /// because otherwise any mouse would match.
+    /// Opens the only matching device. `usage`, a usage page and a usage, restricts the search unless vendor and product are given. Without `usage`,
+    /// at least one criterion is required, because otherwise any mouse would match.
     pub(super) fn open(&self, usage: Option<(u16, u16)>) -> Result<HidDevice, HidOpenError> {
         if let Some(path) = &self.device {
             return open(path);

@@ -1,4 +1,4 @@
-//! Straight path along which an arm is driven by velocity commands that expire.
+//! Straight path of an arm that is driven by velocity commands. Each command expires after a short time.
 
 use std::time::Duration;
 
@@ -6,14 +6,15 @@ use taceva_core::{Pose, Speed};
 
 /// Interval between velocity commands. The arm tolerates the loss of three commands in a row.
 pub(crate) const RENEWED: Duration = Duration::from_millis(50);
-/// Remaining time below which a line command replaces velocities. Only a line command ends exactly at the target.
+/// Remaining time below which one line command replaces the velocity commands. Only a line command ends exactly at the target.
 pub(crate) const LINE: Duration = Duration::from_millis(100);
-/// Shortest duration of a path that is driven by velocities. A shorter path is one line command, because a change of the motion type takes time.
+/// Shortest duration of a path that is driven by velocity commands. A shorter path is one line command, because changing the type of motion takes
+/// time.
 const WORTH: Duration = Duration::from_millis(300);
-/// Tolerance of the tool's rotation, degrees.
+/// Maximum turn of the tool, in degrees about each axis, that still counts as no rotation.
 const TURNED_DEG: f64 = 0.01;
 
-/// Straight path without rotation, in the base frame.
+/// Straight path without rotation, in the base frame of the arm.
 #[derive(Debug)]
 pub(crate) struct Course {
     to_mm: [f64; 3],
@@ -22,7 +23,8 @@ pub(crate) struct Course {
 }
 
 impl Course {
-    /// Creates the path from the observed pose to `target`. `None` if the path is too short for velocities or the tool rotates.
+    /// Creates the path from the pose `from` to `target`. `None` if the path is too short for velocity commands, its length is not finite, or the
+    /// tool rotates.
     pub(crate) fn of(from: &Pose, target: &Pose, speed: Speed) -> Option<Course> {
         let turns = [
             (from.rotation.x.0, target.rotation.x.0),

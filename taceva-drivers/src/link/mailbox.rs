@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use taceva_core::{DriverError, DriverKey, ErrorKind, Interrupt};
 
-/// Newest item of a reader thread, and the reason for its end. Older items are dropped, so that a late caller receives the current item.
+/// Newest item of a reader thread, and the reason if the thread has ended. Older items are dropped, so that a late caller receives the current item.
 #[derive(Debug)]
 pub(crate) struct Mailbox<T> {
     inside: Mutex<Inside<T>>,
@@ -22,7 +22,7 @@ struct Inside<T> {
     is_interrupted: bool,
 }
 
-/// Received item with its number since the start, and its arrival time on the monotonic clock.
+/// Received item with its number, counted from 1 in its mailbox, and its arrival time on the monotonic clock.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen<T> {
     pub(crate) what: T,
@@ -49,7 +49,7 @@ pub(crate) enum NoNews {
 }
 
 impl NoNews {
-    /// Converts the cause into an error of `driver` that waited while it was `doing`. `silence` describes a timeout.
+    /// Converts the reason into an error of `driver` in the operation `doing`. `silence` returns the text for a timeout.
     pub(crate) fn while_waiting(
         self,
         driver: &DriverKey,
@@ -91,7 +91,7 @@ impl<T: Clone> Mailbox<T> {
         self.changed.notify_all();
     }
 
-    /// Ends the mailbox. Later reasons are ignored.
+    /// Records the reason why the reader thread ended. Only the first reason is kept.
     pub(crate) fn end(&self, ending: Ending) {
         self.inside().ended.get_or_insert(ending);
         self.changed.notify_all();
@@ -132,7 +132,7 @@ impl<T: Clone> Mailbox<T> {
     /// Waits up to `patience` for an item newer than number `after`.
     ///
     /// # Errors
-    /// [`NoNews`] on a timeout, an interrupt, or the end.
+    /// [`NoNews`] on a timeout, on an interrupt, or if the reader thread has ended.
     pub(crate) fn next(&self, after: u64, patience: Duration) -> Result<Seen<T>, NoNews> {
         let began = Instant::now();
         let mut inside = self.inside();

@@ -6,7 +6,7 @@ use taceva_core::{Deadline, DriverError, DriverKey, Pose, RobotWatch, Stamp};
 
 use super::Mailbox;
 
-/// Watch that returns the pose in the newest report of a robot.
+/// Watch that returns the pose in the next report of a robot.
 #[derive(Debug)]
 pub(crate) struct ReportedPose<T> {
     /// Driver of the robot, for errors.
@@ -16,7 +16,7 @@ pub(crate) struct ReportedPose<T> {
     pub(crate) pose: fn(&T) -> Result<Pose, DriverError>,
 }
 
-/// Operation name of a watch, for errors.
+/// Name of a watch in error messages.
 pub(crate) const LOOK: &str = "watch the pose of the arm during a motion";
 
 impl<T: Clone + Send> RobotWatch for ReportedPose<T> {

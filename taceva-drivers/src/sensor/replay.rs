@@ -15,14 +15,14 @@ use timeline::Timeline;
 
 /// A sensor that replays recorded frames.
 ///
-/// In virtual time every frame is delivered on request, stamped with the time of the recording. In real time, a frame is delivered when due, with a stamp in
-/// the time of the rig. A slow caller misses frames. An unreadable frame is an error; the next call returns the next frame.
+/// In virtual time every frame is delivered on request, stamped with its recorded time. In real time, a frame is delivered when due, stamped on the
+/// clock of the rig. A slow caller then misses frames. A call for an unreadable frame returns an error; the next call returns the next frame.
 pub struct Replay {
     source: Box<dyn FrameSource>,
     pace: Box<dyn Pace>,
     driver: DriverKey,
     timeline: Timeline,
-    /// Number of frames that were delivered or missed.
+    /// Number of frames that were delivered, missed or unreadable.
     passed: usize,
     running: bool,
 }
@@ -30,14 +30,14 @@ pub struct Replay {
 /// Options of a replay.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReplayOptions {
-    /// Driver key for errors.
+    /// Key of the driver in error messages.
     pub driver: DriverKey,
     /// True to restart after the last frame instead of ending.
     pub repeat: bool,
 }
 
 impl Replay {
-    /// Creates a sensor that delivers the frames of `source` at the times of `pace`.
+    /// Creates a sensor that delivers the frames of `source`, timed by the clock `pace`.
     pub fn new(
         source: Box<dyn FrameSource>,
         pace: Box<dyn Pace>,

@@ -15,7 +15,7 @@ pub(crate) fn info(bytes: &[u8]) -> Result<FrameInfo, String> {
     frame_info(decoder.as_ref())
 }
 
-/// Decodes the image into `into`, which must have its size and format.
+/// Decodes the image in `bytes` into the frame `into`, which must have the size and format of the image.
 pub(crate) fn decode(bytes: &[u8], into: &mut FrameMut<'_>) -> Result<(), Mismatch> {
     let decoder = opened(bytes).map_err(Mismatch::Damaged)?;
     let found = frame_info(decoder.as_ref()).map_err(Mismatch::Damaged)?;
@@ -36,7 +36,7 @@ pub(crate) fn decode(bytes: &[u8], into: &mut FrameMut<'_>) -> Result<(), Mismat
 /// Failure to decode an image into a frame.
 #[derive(Debug)]
 pub(crate) enum Mismatch {
-    /// The image has another size or format.
+    /// The size or format of the image differs from the frame. The value describes the image.
     Size(FrameInfo),
     /// The image cannot be decoded.
     Damaged(String),

@@ -38,7 +38,7 @@ pub enum SourceError {
         /// Maximum number of frames.
         most: usize,
     },
-    /// The frame is damaged, too large, or in a format that cameras do not send.
+    /// The file is damaged, too large, not a regular file, or in an unsupported format.
     #[error("{}: {problem}", shown(path))]
     Frame {
         /// Path of the file.
@@ -59,7 +59,7 @@ pub enum SourceError {
         /// Size and format of this frame.
         found: FrameInfo,
     },
-    /// The table of times does not match its folder.
+    /// The table of times is invalid or does not match its folder.
     #[error("{}{}: {problem}", shown(path), at(*line))]
     Times {
         /// Path of the table.

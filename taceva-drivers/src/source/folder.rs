@@ -16,7 +16,7 @@ use crate::name_order;
 /// Times of the frames in a folder.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Timing {
-    /// Constant rate from 0 s, in natural order of the file names.
+    /// Constant rate: the first frame is at 0 s, and the frames are in natural order of their file names.
     Rate(Hertz),
     /// CSV table with the columns `file` and `t_s`, which names every frame of the folder once.
     Table(PathBuf),
@@ -34,7 +34,7 @@ pub struct FolderSource {
 }
 
 impl FolderSource {
-    /// Opens the frames in `folder`. Only the first file is read.
+    /// Opens the frames in `folder`. Reads the table of times, if there is one, and the first frame.
     ///
     /// # Errors
     /// [`SourceError`] if the folder is missing or empty, its first frame is damaged, or the table does not match.
@@ -87,7 +87,7 @@ impl FrameSource for FolderSource {
     }
 }
 
-/// Names of the images in `folder`, sorted; at least one.
+/// Names of the images in `folder` in natural order; at least one.
 fn names_in(folder: &Path) -> Result<Vec<String>, SourceError> {
     let mut names = Vec::new();
     for entry in fs::read_dir(folder).map_err(SourceError::io("read the folder", folder))? {

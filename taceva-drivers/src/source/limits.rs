@@ -1,4 +1,4 @@
-//! Limits for external files, checked before allocation.
+//! Limits on the size and number of files from users, checked before memory is allocated.
 
 /// Maximum size of an image file, bytes.
 pub(super) const IMAGE_BYTES: u64 = 256 << 20;

@@ -19,7 +19,7 @@ submit_builtin!(dyn Robot, || Ok(Box::new(GrblFactory::new()?)));
 /// - Positions are in the **machine's own frame** (`MPos`), in mm. The machine has three axes and does not rotate. It must report these
 ///   positions (`$10=1`).
 /// - Opening locks the serial port, which resets many boards; nothing moves. A machine in alarm is not moved: a person resets and homes it.
-///   The version and the owner's text that `$I` states are settings. A machine in motion or in a hold does not state them.
+///   The answer to `$I`, a version and the owner's text, becomes settings of the robot. A machine in motion or in a hold does not answer `$I`.
 /// - A move is one `G53 G1`. It ends once the machine is idle within 0.02 mm of the target.
 /// - A halt is the byte `!`, on which the machine decelerates at once. `clear_halt` resets the machine once it is at rest, which keeps its
 ///   position.

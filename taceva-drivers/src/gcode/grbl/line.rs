@@ -1,4 +1,4 @@
-//! Parser of the machine's lines. No I/O.
+//! Parser for the lines that a GRBL machine sends. Does no I/O.
 
 use std::collections::BTreeMap;
 
@@ -18,16 +18,16 @@ pub(super) struct Status {
 pub(super) enum State {
     Idle,
     Running,
-    /// Held by a halt, still decelerating.
+    /// The machine decelerates after a halt.
     Slowing,
-    /// Held by a halt, at rest.
+    /// The machine is at rest after a halt.
     Held,
     Alarm,
-    /// Door, check mode, homing or sleep.
+    /// Any other state: open door, check mode, homing or sleep.
     Other,
 }
 
-/// Parses a line.
+/// Parses one line from the machine.
 pub(super) fn read(line: &str) -> Heard<Status> {
     let number = |text: &str| text.parse::<u16>().unwrap_or(0);
     if line == "ok" {
@@ -47,7 +47,7 @@ pub(super) fn read(line: &str) -> Heard<Status> {
     }
 }
 
-/// Parses a version such as `[VER:1.1h.20190825:the press]`, whose last part is a text that the owner set. `None` for another line.
+/// Parses a version line such as `[VER:1.1h.20190825:the press]`, which ends with the owner's text. `None` for another line.
 fn facts(line: &str) -> Option<BTreeMap<String, String>> {
     let version = line.strip_prefix("[VER:")?.strip_suffix(']')?;
     let (firmware, machine) = version.split_once(':').unwrap_or((version, ""));

@@ -22,7 +22,7 @@ pub(super) struct Machine {
     pub(super) link: SerialLink<Status>,
     pub(super) stop: Arc<Stop>,
     options: SerialOptions,
-    /// Facts that the machine states about itself; empty if the machine was in motion.
+    /// Firmware version and owner's text, as the machine reported them; empty if the machine was in motion.
     facts: BTreeMap<String, String>,
 }
 
@@ -33,7 +33,7 @@ const ASK_FACTS: &str = "$I";
 pub(super) const HOLD: &[u8] = b"!";
 const RESET: &[u8] = &[0x18];
 
-/// Creates an error with a reason.
+/// Creates an error of this driver with the reason `why`.
 pub(super) fn failed(
     kind: ErrorKind,
     doing: &'static str,
@@ -42,17 +42,18 @@ pub(super) fn failed(
     DriverError::new(kind, &KEY, doing).because(why)
 }
 
-/// Timeout for the first answer after opening, which resets many boards.
+/// Timeout for the first answer after the port is opened. Opening resets many boards.
 const AWAKE: Duration = Duration::from_secs(4);
 /// Timeout for an answer.
 pub(super) const ANSWER: Duration = Duration::from_millis(500);
 /// Interval of queries while the machine restarts and ignores input.
 const AGAIN: Duration = Duration::from_millis(250);
-/// Minimum timeout of a query, for callers past their deadline.
+/// Minimum timeout of a query, even if the caller's deadline has passed.
 const GLANCE: Duration = Duration::from_millis(50);
 
 impl Machine {
-    /// Opens the serial port and waits until the machine answers. Nothing moves. The hold of an earlier run ends, and its pending commands are discarded.
+    /// Opens the serial port and waits until the machine answers. Nothing moves. If an earlier run left the machine in a hold, ends the hold and
+    /// discards the pending commands.
     pub(super) fn open(options: SerialOptions) -> Result<Machine, DriverError> {
         let link = SerialLink::open(&KEY, &options.port, options.baud, read)?;
         let stop = Arc::new(Stop::new(KEY, link.writer().clone(), HOLD));
@@ -107,7 +108,7 @@ impl Machine {
         })
     }
 
-    /// Discards the pending commands of a machine at rest. The machine is idle afterwards.
+    /// Waits until the machine is at rest, then discards its pending commands. The machine is idle afterwards.
     pub(super) fn empty(&mut self, doing: &'static str) -> Result<(), DriverError> {
         let until = monotonic() + ANSWER;
         loop {

@@ -10,9 +10,9 @@ use super::machine::{ANSWER, HOLD, Machine, alarm, failed};
 use crate::gcode::limits::{MOVE, short_mm, straight};
 use crate::link::monotonic;
 
-/// Tolerance at the target, mm. A step of most machines is at most 0.01 mm.
+/// Maximum distance from the target at the end of a motion, mm. A step of most machines is at most 0.01 mm.
 const NEAR_MM: f64 = 0.02;
-/// Time within which an accepted motion begins.
+/// Maximum time from sending a motion command to the start of the motion.
 const BEGUN: Duration = Duration::from_millis(100);
 /// Interval of status queries during a motion; the machine supports no higher rate.
 const LOOK_EVERY: Duration = Duration::from_millis(20);
@@ -107,7 +107,7 @@ impl Machine {
         }
     }
 
-    /// Waits until a halted machine is at rest or does not answer.
+    /// Waits until a halted machine is at rest, at most 0.5 s.
     fn rest(&mut self) -> Result<(), DriverError> {
         let until = monotonic() + ANSWER;
         while monotonic() < until {

@@ -19,8 +19,8 @@ submit_builtin!(dyn Robot, || Ok(Box::new(MarlinFactory::new()?)));
 /// - Positions come from `M114`, in mm, in the frame set by homing: **home the printer first**, which this program never does. The printer has
 ///   three axes and does not rotate.
 /// - Opening locks the serial port, which resets many boards; nothing moves. Firmware without `EMERGENCY_PARSER` is rejected, since a stop
-///   would wait for the end of the motion. Firmware without `M118` is rejected too: it sends no echo. The firmware, the type and the UUID
-///   that `M115` states are settings.
+///   would wait for the end of the motion. Firmware without `M118` is rejected too: it sends no echo. The firmware, machine type and UUID
+///   that `M115` states become settings of the robot.
 /// - A move is one `G1` followed by the wait `M400` and an echo (`M118`). It ends once the echo has come and `M114` is within 0.02 mm of the
 ///   target. The printer reports no position during the move. After 5 s without output, or without a whole echo, the printer counts as gone. The
 ///   firmware therefore needs `HOST_KEEPALIVE_FEATURE`, which is on by default.
@@ -30,8 +30,8 @@ submit_builtin!(dyn Robot, || Ok(Box::new(MarlinFactory::new()?)));
 ///
 /// # Verification
 /// The driver passes its suite on an emulated printer on a pseudo-terminal. The virtual printer of OctoPrint 1.11.8 answers `M114`, `M115`,
-/// `M118`, `G1` and `M400`. It does not know `M410` and makes its moves in a tenth of their time, so it confirms only the dialect. **Not
-/// verified without the device**: all timing, how a printer stops after `M410`, and its position afterwards.
+/// `M118`, `G1` and `M400`. It does not know `M410` and makes its moves in a tenth of their time, so it confirms only the syntax of commands.
+/// **Not verified without the device**: all timing, how a printer stops after `M410`, and its position afterwards.
 ///
 /// ```
 /// use taceva_core::Factory;

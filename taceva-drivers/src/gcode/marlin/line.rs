@@ -1,4 +1,4 @@
-//! Parser of the printer's lines. No I/O.
+//! Parser for the lines that a Marlin printer sends. Does no I/O.
 
 use std::collections::BTreeMap;
 
@@ -8,10 +8,10 @@ use crate::text::shown;
 /// Reported position of the tip, current or planned, mm; may contain NaN.
 pub(super) type Place = [f64; 3];
 
-/// Prefix of a number that the printer must echo.
+/// Text before a number that the printer must echo.
 pub(super) const MARK: &str = "taceva mark ";
 
-/// Errors of a line that arrived damaged. The printer asks for the line again.
+/// Error texts of a printer that received a damaged line. The printer then requests the line again.
 const DAMAGED: [&str; 4] = [
     "checksum mismatch",
     "No Checksum with line number",
@@ -26,16 +26,16 @@ pub(super) fn numbered(number: u32, command: &str) -> String {
     format!("{text}*{checksum}")
 }
 
-/// Key that begins the line of facts.
+/// Key at the start of the answer to `M115`.
 const FIRMWARE_NAME: &str = "FIRMWARE_NAME:";
-/// Keys of facts, and their names as settings.
+/// Keys in the answer to `M115`, each with its name in the settings of the robot.
 const FACTS: [(&str, &str); 3] = [
     ("FIRMWARE_NAME", "firmware"),
     ("MACHINE_TYPE", "machine"),
     ("UUID", "uuid"),
 ];
 
-/// Parses a line.
+/// Parses one line from the printer.
 pub(super) fn read(line: &str) -> Heard<Place> {
     // Some printers report the position after `ok` on the same line.
     if let Some(behind) = line.strip_prefix("ok")
@@ -84,7 +84,7 @@ fn answer(line: &str) -> Option<Answer> {
     (!is_damage).then(|| Answer::Fault(format!("`{why}`")))
 }
 
-/// Parses facts such as `FIRMWARE_NAME:Marlin 2.1.2 (Nov 27 2026) MACHINE_TYPE:Ender-3 UUID:cede2a2f`. Values may have blanks.
+/// Parses an answer to `M115`, such as `FIRMWARE_NAME:Marlin 2.1.2 (Nov 27 2026) MACHINE_TYPE:Ender-3 UUID:cede2a2f`. Values may contain spaces.
 fn facts(line: &str) -> BTreeMap<String, String> {
     let mut facts: BTreeMap<String, String> = BTreeMap::new();
     let mut name = None;

@@ -22,30 +22,30 @@ pub(super) struct Printer {
     pub(super) link: SerialLink<Place>,
     pub(super) stop: Arc<Stop>,
     options: SerialOptions,
-    /// Last number sent to the printer for an echo.
+    /// Number in the last request for an echo.
     pub(super) mark: u32,
     /// Number of the last line with a checksum; `None` if the firmware does not count lines.
     line: Option<u32>,
     is_emulated: bool,
-    /// Facts that the printer states about itself.
+    /// Firmware, machine type and UUID, as far as the printer reported them.
     facts: BTreeMap<String, String>,
 }
 
 /// Command that ends every motion at once, if the printer accepts it during a motion.
 pub(super) const QUICK_STOP: &[u8] = b"M410\n";
-/// Capability without which a stop waits for the end of the motion.
+/// Capability to stop during a motion. Without it, a stop waits for the end of the motion.
 const STOPS_AT_ONCE: &str = "EMERGENCY_PARSER";
 /// Capability that only an emulated printer reports (`taceva-wire`).
 const EMULATED: &str = "TACEVA_SIM";
 const CONNECT: &str = "connect to the printer";
 const LOOK: &str = "read the position of the printer";
-/// Timeout for the first answer after opening, which resets many boards.
+/// Timeout for the first answer after the port is opened. Opening resets many boards.
 const AWAKE: Duration = Duration::from_secs(10);
 /// Timeout for an answer.
 pub(super) const ANSWER: Duration = Duration::from_millis(800);
-/// Maximum number of times that a damaged line is sent.
+/// Maximum number of attempts to send a line that arrives damaged.
 const SENT: u32 = 4;
-/// Minimum timeout of a query, for callers past their deadline.
+/// Minimum timeout of a query, even if the caller's deadline has passed.
 const GLANCE: Duration = Duration::from_millis(100);
 
 impl Printer {
@@ -95,14 +95,14 @@ impl Printer {
         Ok(printer)
     }
 
-    /// Lines `before`, then a request to echo a new mark. The printer sends the echo after it carries out the lines. Each mark has its own number,
-    /// so that a repeated echo or `ok` ends no later command.
+    /// Returns the lines `before`, then a request to echo a new number. The printer sends the echo after it executes the lines. Each request has its
+    /// own number, so that a repeated echo or `ok` ends no later command.
     pub(super) fn marked(&mut self, before: &str) -> String {
         self.mark = self.mark.wrapping_add(1);
         format!("{before}M118 {MARK}{}", self.mark)
     }
 
-    /// Synchronises commands and answers: skips the answers to earlier commands.
+    /// Skips the answers to earlier commands, so that the next answer belongs to the next command.
     pub(super) fn agree(&mut self, patience: Duration) -> Result<(), CommandError> {
         self.ask("", patience, drop)
     }
@@ -139,8 +139,8 @@ impl Printer {
         }
     }
 
-    /// Sends a command of a motion, with a line number and a checksum if the firmware counts lines. A command that arrives damaged is sent again, unless the
-    /// printer was halted.
+    /// Sends a motion command, with a line number and a checksum if the firmware counts lines. A command that arrives damaged is sent again, unless
+    /// the printer was halted.
     pub(super) fn order(&mut self, command: &str) -> Result<(), DriverError> {
         let refused = |error: CommandError| error.met(&KEY, MOVE);
         for _ in 0..SENT {
@@ -182,7 +182,7 @@ impl Printer {
         Err(refused(CommandError::Refused { command, why }))
     }
 
-    /// Queries the position of the tip: current at rest, planned during a motion.
+    /// Queries the position of the tip. A printer at rest reports the current position, and a moving printer the planned one.
     pub(super) fn look(&mut self, patience: Duration) -> Result<Seen<Place>, DriverError> {
         let after = self.link.statuses().posted();
         let patience = patience.max(GLANCE);

@@ -10,11 +10,11 @@ use crate::gcode::limits::{MOVE, short_mm, straight};
 use crate::gcode::link::{Answer, CommandError};
 use crate::link::monotonic;
 
-/// Tolerance at the target, mm. Printers report positions to 0.01 mm.
+/// Maximum distance from the target at the end of a motion, mm. Printers report positions to 0.01 mm.
 const NEAR_MM: f64 = 0.02;
 /// Interval at which a motion checks for a halt.
 const LOOK_EVERY: Duration = Duration::from_millis(10);
-/// Maximum time without output. A busy printer reports every two seconds.
+/// Maximum time without output from the printer. A busy printer reports every two seconds.
 const SILENT: Duration = Duration::from_secs(5);
 /// Timeout for answers after a stop.
 const SETTLED: Duration = Duration::from_secs(3);

@@ -1,13 +1,13 @@
 //! Decoder of pedal reports. No I/O.
 
-/// Bits of a report that belong to the pedal.
+/// Bits of a report that tell if the pedal is pressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Bits {
-    /// Report number, which is the first byte; `None` if reports are not numbered.
+    /// Number of the report, expected as its first byte; `None` if the device does not number its reports.
     pub(super) report: Option<u8>,
-    /// Index of the byte after the report number, from 0; `None` for any byte.
+    /// Index of the byte with the bits of the pedal, from 0, after the report number. `None` for all bytes.
     pub(super) byte: Option<usize>,
-    /// Mask within the byte.
+    /// Mask of the pedal's bits within a byte.
     pub(super) mask: u8,
 }
 

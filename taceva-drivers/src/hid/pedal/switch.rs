@@ -1,4 +1,4 @@
-//! Enabling switch over a pedal.
+//! Pedal as an enabling switch.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -15,7 +15,7 @@ use crate::hid::selection::Selection;
 use crate::link::Mailbox;
 use crate::{OpenError, Selector};
 
-/// An open pedal: `hid/pedal:usb=0c45:7403`, or with `;byte=2` if other bits of its reports are unrelated.
+/// An open pedal: `hid/pedal:usb=0c45:7403`. The argument `byte=2` excludes all other bytes of its reports.
 ///
 /// # The physical contract
 /// - The device must be selected by `usb`, `serial` or `device`. Pedals do not identify themselves, and a moving mouse must not count as a

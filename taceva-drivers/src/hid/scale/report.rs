@@ -3,14 +3,14 @@
 use taceva_core::ErrorKind;
 use thiserror::Error;
 
-/// Number of the weight report: `03 status unit exponent low high`.
+/// Number of a weight report, whose bytes are `03 status unit exponent low high`.
 const WEIGHT_REPORT: u8 = 3;
-/// Maximum absolute exponent.
+/// Maximum absolute value of the decimal exponent in a report.
 const EXPONENT_MAX: i8 = 9;
 /// Standard gravity, N/kg. Local gravity, to which scales may be adjusted, differs by up to 0.3 %.
 const N_KG: f64 = 9.806_65;
 const KG_G: f64 = 1e-3;
-/// Grams per international pound; the next constant is grams per ounce.
+/// Mass of an international pound, g.
 const G_POUND: f64 = 453.592_37;
 const G_OUNCE: f64 = G_POUND / 16.0;
 
@@ -19,7 +19,7 @@ const G_OUNCE: f64 = G_POUND / 16.0;
 pub(super) struct Weight {
     /// Mass, g; negative under tension.
     pub(super) grams: f64,
-    /// Step of reports in this unit and with this exponent, g. The display of the scale may have larger steps.
+    /// Step between reported masses, g, for the unit and exponent of the report. The display of the scale may have larger steps.
     pub(super) step_grams: f64,
 }
 
@@ -29,7 +29,7 @@ impl Weight {
         self.grams * KG_G * N_KG
     }
 
-    /// Resolution of the force, N.
+    /// Step between reported forces, N.
     pub(super) fn step_newtons(self) -> f64 {
         self.step_grams * KG_G * N_KG
     }
@@ -74,7 +74,7 @@ impl WeightError {
     }
 }
 
-/// Parses a report; `None` for another report number.
+/// Parses a weight report; `None` for a report with another number.
 pub(super) fn read(report: &[u8]) -> Option<Result<Weight, WeightError>> {
     match *report {
         [WEIGHT_REPORT, status, unit, exponent, low, high, ..] => {

@@ -25,9 +25,9 @@ pub(super) struct Transducer {
     _listener: Listener,
     zero: HostZero,
     is_running: bool,
-    /// Mailbox number of the weight that was returned last.
+    /// Number of the last returned weight in the mailbox.
     last: u64,
-    /// Step of the last weight, N; `None` before the first.
+    /// Step between forces that the last weight report implies, N; `None` before the first report.
     step_n: Option<f64>,
 }
 
@@ -62,7 +62,7 @@ impl Transducer {
         })
     }
 
-    /// Waits for the next load; also returns its arrival time.
+    /// Waits for the next weight and returns it as a force, with its arrival time.
     fn next(&mut self, patience: Duration) -> Result<(Wrench, Duration), DriverError> {
         if !self.is_running {
             return Err(failed(

@@ -1,9 +1,9 @@
-//! Times at which the frames of a recording are due, over all rounds.
+//! Due times of the frames of a recording, including its repetitions.
 
-/// Times of the frames of a recording, with a shift. The times repeat if the replay restarts. Frames are numbered over all rounds.
+/// Due times of the frames of a recording, with a shift. A repeated recording is replayed in rounds, and the frame numbers continue across rounds.
 #[derive(Debug)]
 pub(super) struct Timeline {
-    /// Times of one round, s: at least one, strictly increasing.
+    /// Times of the frames of one round, s: at least one time, strictly increasing.
     times_s: Vec<f64>,
     repeat: bool,
     shift_s: f64,
@@ -18,12 +18,12 @@ impl Timeline {
         }
     }
 
-    /// Shifts all frames by `by_s`.
+    /// Delays all frames by `by_s`, s.
     pub(super) fn shift(&mut self, by_s: f64) {
         self.shift_s += by_s;
     }
 
-    /// Position within the recording of frame number `frame`.
+    /// Position in the recording, from 0, of the frame with number `frame` over all rounds.
     pub(super) fn position(&self, frame: usize) -> usize {
         frame % self.times_s.len()
     }
@@ -60,7 +60,7 @@ impl Timeline {
             .saturating_add(come.saturating_sub(1))
     }
 
-    /// Duration of a round, s. The last frame lasts as long as the previous frame; a single frame lasts 1 s.
+    /// Duration of one round through the recording, s. The last frame lasts as long as the previous frame; a single frame lasts 1 s.
     fn round_s(&self) -> f64 {
         match self.times_s.as_slice() {
             [first, .., before, last] => (last - first) + (last - before),
