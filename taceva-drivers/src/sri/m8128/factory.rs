@@ -46,7 +46,7 @@ pub struct M8128Factory {
     descriptor: Descriptor,
 }
 
-/// Torque units of the box, by argument value, each with its value in N·mm.
+/// Torque units of the box: value of the argument `torque`, and size of the unit in N·mm.
 const TORQUES: [(&str, f64); 2] = [("N m", 1000.0), ("N mm", 1.0)];
 
 impl M8128Factory {
@@ -129,7 +129,7 @@ fn options(args: &Args) -> M8128Options {
     }
 }
 
-/// Rounds to whole Hz.
+/// Rounds a rate of 1 to 2000 Hz to whole Hz.
 fn whole(rate_hz: f64) -> u16 {
     #[expect(
         clippy::cast_possible_truncation,

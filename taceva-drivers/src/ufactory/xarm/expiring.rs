@@ -1,4 +1,4 @@
-//! Motion by velocities that expire. The controller stops if velocities are no longer renewed.
+//! Motion by velocities that expire. The controller stops the arm unless the driver renews the velocity in time.
 
 use std::time::Duration;
 

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// Request: register and parameters.
+/// Request to the controller: register and parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Request {
     pub(super) register: u8,
@@ -11,9 +11,9 @@ pub(super) struct Request {
 
 /// Size of the header, bytes: transaction, protocol and length, two each.
 const HEADER: usize = 6;
-/// Number of the private protocol without keep-alive. The controller does not disconnect idle clients.
+/// Protocol number without keep-alive: the controller does not disconnect idle clients.
 const PROTOCOL: u16 = 2;
-/// Number of the private protocol with keep-alive, in answers of some controllers.
+/// Protocol number with keep-alive, which some controllers use in their answers.
 const PROTOCOL_KEEP_ALIVE: u16 = 3;
 /// Maximum length of an answer, bytes. Answers of the used registers have about 50 bytes. A larger value means lost synchronisation.
 const LENGTH_MAX: usize = 1024;
