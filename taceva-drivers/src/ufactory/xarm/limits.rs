@@ -7,7 +7,7 @@ use taceva_core::Speed;
 
 use crate::link::connect;
 
-/// Speed and acceleration limits of the tip. A controller changes values outside the limits without an error.
+/// Speed and acceleration limits of the tip. The controller replaces commanded values outside the limits without an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ArmLimits {
     /// Least and greatest speed, mm/s.
@@ -23,7 +23,7 @@ const LIMITS: usize = 185;
 const REPORT: usize = LIMITS + 16;
 
 impl ArmLimits {
-    /// Reads a report of `port` of `host`. `None` if the port is closed, sends no complete report in time, or states no limits.
+    /// Reads the limits from a report on `port` of `host`. `None` if the port is closed, sends no complete report in time, or states no limits.
     pub(super) fn ask(host: &str, port: u16) -> Option<ArmLimits> {
         let (mut stream, _) = connect(host, port).ok()?;
         stream.set_read_timeout(Some(PATIENCE)).ok()?;
@@ -93,7 +93,7 @@ fn decimal(number: f32) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// Report of `length` bytes with these limits.
+    /// Report that states a length of `length` bytes. `limits` are the least and greatest acceleration, then the least and greatest speed.
     fn report(length: u32, limits: [f32; 4]) -> [u8; REPORT] {
         let mut report = [0; REPORT];
         report[..4].copy_from_slice(&length.to_be_bytes());

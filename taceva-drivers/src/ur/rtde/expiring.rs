@@ -1,4 +1,4 @@
-//! Motion by programs that expire. The controller brakes if programs are no longer renewed.
+//! Motion by programs that expire. The arm brakes unless the driver sends the next program in time.
 
 use std::time::Duration;
 

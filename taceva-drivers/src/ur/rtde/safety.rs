@@ -24,7 +24,7 @@ pub(super) enum ArmFault {
     },
 }
 
-/// Bits of the safety status.
+/// Bit of the safety status for a protective stop. The next constants are the other bits.
 const PROTECTIVE_STOPPED: u32 = 1 << 2;
 const SAFEGUARD_STOPPED: u32 = 1 << 4;
 const SYSTEM_EMERGENCY_STOPPED: u32 = 1 << 5;
@@ -36,7 +36,7 @@ const FAULT: u32 = 1 << 9;
 const RUNNING: i32 = 7;
 
 impl ArmFault {
-    /// Kind of a fault that requires a person; `None` for other faults.
+    /// Kind of fault for a safety stop or a fault; `None` for [`ArmFault::NotRunning`].
     pub(super) fn kind(self) -> Option<Fault> {
         match self {
             ArmFault::EmergencyStop => Some(Fault::EmergencyStop),
