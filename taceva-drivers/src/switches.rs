@@ -12,7 +12,7 @@ use crate::selector::Selector;
 /// Function that opens a switch by its selector.
 type Open = Box<dyn Fn(&Selector) -> Result<Arc<dyn EnablingSwitch>, OpenError> + Send + Sync>;
 
-/// A driver of enabling switches.
+/// Registered driver of enabling switches.
 struct Entry {
     title: String,
     arguments: Vec<ArgSpec>,

@@ -6,7 +6,7 @@ use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Newton, NewtonMil
 
 use crate::link::monotonic;
 
-/// Zero offset and range of one transducer.
+/// Zero offset and measuring range of one transducer.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct HostZero {
     /// Key of the driver, for error messages.
@@ -22,9 +22,9 @@ pub(crate) struct HostZero {
 pub(crate) const READ: &str = "read the force";
 /// Name of the operation that zeroes forces, in error messages.
 pub(crate) const ZERO: &str = "zero the force";
-/// Time over which readings are averaged for a zero offset.
+/// Time over which readings are averaged to determine a zero offset.
 const MEAN_OVER: Duration = Duration::from_millis(250);
-/// Maximum zero offset as a share of the stated range. The rest of the range is for measurements.
+/// Maximum zero offset as a share of the measuring range. The rest of the range is for measurements.
 const ZERO_MAX: f64 = 0.5;
 
 impl HostZero {

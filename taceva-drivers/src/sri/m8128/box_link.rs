@@ -86,7 +86,7 @@ impl BoxLink {
         })
     }
 
-    /// Mailbox of the readings.
+    /// Mailbox that contains the newest reading.
     pub(super) fn readings(&self) -> &Arc<Mailbox<Counted>> {
         &self.readings
     }

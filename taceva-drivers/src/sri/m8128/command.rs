@@ -26,7 +26,7 @@ pub(super) enum Command {
 }
 
 impl Command {
-    /// Encodes the command as a line.
+    /// Encodes the command as a text line, with `AT+` and the line end.
     pub(super) fn line(self) -> String {
         let text = match self {
             Command::Rate(hz) => format!("SMPF={hz}"),

@@ -59,7 +59,7 @@ impl Check {
         HEAD + DATA + self.length()
     }
 
-    /// Length field of a frame with this checksum. The length includes number, values and checksum.
+    /// Length field of a frame with this checksum. The length includes frame number, values and checksum.
     fn stated(self) -> [u8; 2] {
         let length = u16::try_from(self.frame() - 4).expect("a length of two bytes");
         length.to_be_bytes()
@@ -78,7 +78,7 @@ const ANSWER: &[u8] = b"ACK+";
 /// Maximum length of an answer line, bytes.
 const LINE_MAX: usize = 512;
 
-/// Classification of the first bytes of a buffer.
+/// Content at the beginning of received bytes.
 enum Start {
     /// A complete message and its length in bytes.
     Whole(Message, usize),

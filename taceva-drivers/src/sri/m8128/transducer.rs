@@ -40,19 +40,19 @@ pub(super) enum Zero {
     Box,
 }
 
-/// A connected transducer.
+/// Force transducer behind a connected interface box.
 #[derive(Debug)]
 pub(super) struct Transducer {
     link: BoxLink,
     options: M8128Options,
-    /// Zero offset, subtracted from every reading.
+    /// Zero offset that is subtracted from every reading, and measuring range.
     zero: HostZero,
     /// Decoupling matrix and its unit, by name, if the box states them.
     facts: BTreeMap<String, String>,
     is_running: bool,
     /// Sequence number of the last reading; `None` before the first.
     sequence: Option<u64>,
-    /// Mailbox number of the reading that was returned last.
+    /// Mailbox number of the reading that the driver returned last.
     last: u64,
 }
 

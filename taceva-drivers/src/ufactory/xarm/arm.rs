@@ -162,7 +162,7 @@ fn reported_pose(report: &ArmReport) -> Result<Pose, DriverError> {
     Ok(pose)
 }
 
-/// Highest number of a state without a stop: ready, moving and paused are 0 to 3.
+/// Highest state number of an arm that is not stopped. States 0 to 3 are ready, moving and paused.
 const LAST_GOOD_STATE: u8 = 3;
 
 impl Robot for Arm {

@@ -10,7 +10,7 @@ pub(super) enum Command {
     GetVersion,
     /// Set the state: become ready, or stop.
     SetState(TargetState),
-    /// Query the state.
+    /// Query the state of the controller.
     GetState,
     /// Query the number of queued motions.
     GetQueued,
@@ -38,9 +38,9 @@ pub(super) enum Mode {
 /// State that a command requests from the controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TargetState {
-    /// Ready for motions.
+    /// Accepts motions.
     Ready = 0,
-    /// Stopped, with an empty queue.
+    /// Stops, and empties the queue of motions.
     Stopped = 4,
 }
 
@@ -71,7 +71,7 @@ const MOVE_LINE: u8 = 21;
 const GET_POSE: u8 = 41;
 const MOVE_VELOCITY: u8 = 82;
 
-/// Blending radius that disables blending of consecutive lines.
+/// Blending radius that makes the tip stop at the end of each line.
 const NO_BLENDING: f32 = -1.0;
 
 impl Command {
@@ -159,7 +159,7 @@ impl Reply {
         self.parameters.first().copied()
     }
 
-    /// Number of queued motions; `None` if the answer is too short.
+    /// Number of queued motions in the answer; `None` if the answer is too short.
     pub(super) fn queued(&self) -> Option<u16> {
         self.parameters
             .first_chunk()
@@ -167,7 +167,7 @@ impl Reply {
             .map(u16::from_be_bytes)
     }
 
-    /// Error and warning codes; `None` if the answer is too short.
+    /// Error code and warning code in the answer; `None` if the answer is too short.
     pub(super) fn codes(&self) -> Option<[u8; 2]> {
         self.parameters.first_chunk().copied()
     }

@@ -145,7 +145,7 @@ impl Exchange {
         self.firmware
     }
 
-    /// Writing half, for sending while another caller waits for an answer.
+    /// Writing half of the connection. It can send while another caller waits for an answer.
     pub(super) fn writer(&self) -> Writer {
         self.writer.clone()
     }
@@ -194,7 +194,7 @@ impl Exchange {
     }
 }
 
-/// Last transaction number before wrapping to 1. [`UNANSWERED`] is reserved for commands whose answer is not awaited.
+/// Last transaction number; the next number is 1. [`UNANSWERED`] is reserved for commands whose answer is not awaited.
 const TRANSACTION_MAX: u16 = u16::MAX - 1;
 /// Transaction number of commands whose answer is not awaited.
 pub(super) const UNANSWERED: u16 = u16::MAX;

@@ -9,7 +9,7 @@ use super::error::failed;
 /// Error of the controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct XarmFault {
-    /// Error code in the vendor's documents.
+    /// Error code, as listed in the vendor's documents.
     pub(super) code: u8,
 }
 

@@ -9,7 +9,7 @@ pub(super) struct Request {
     pub(super) parameters: Vec<u8>,
 }
 
-/// Size of the header, bytes: transaction, protocol and length, two each.
+/// Size of the header, bytes. Transaction number, protocol number and length have two bytes each.
 const HEADER: usize = 6;
 /// Protocol number without keep-alive: the controller does not disconnect idle clients.
 const PROTOCOL: u16 = 2;
@@ -43,7 +43,7 @@ pub(super) struct Reply {
     pub(super) parameters: Vec<u8>,
 }
 
-/// Status byte of every answer.
+/// Status of the controller, in one byte of every answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Status(pub(super) u8);
 

@@ -1,4 +1,4 @@
-//! Speed and acceleration limits of a controller, read from one of its complete reports.
+//! Speed and acceleration limits of a controller, read from one report.
 
 use std::io::Read;
 use std::time::Duration;
@@ -16,9 +16,9 @@ pub(super) struct ArmLimits {
     pub(super) acceleration_mm_s2: [f64; 2],
 }
 
-/// Longest wait for a report; the controller sends five per second.
+/// Longest wait for a report with limits; the controller sends five per second.
 const PATIENCE: Duration = Duration::from_secs(1);
-/// Offset of the least acceleration in a report, bytes. The greatest acceleration and both speeds follow.
+/// Offset of the least acceleration in a report, bytes. The greatest acceleration, the least speed and the greatest speed follow.
 const LIMITS: usize = 185;
 const REPORT: usize = LIMITS + 16;
 
@@ -51,7 +51,7 @@ impl ArmLimits {
         .filter(|_| is_complete)
     }
 
-    /// Rejects a speed outside the limits, which the controller would change.
+    /// Rejects a speed outside the limits, because the controller would replace it.
     ///
     /// # Errors
     /// A sentence with the speed and the limits.
@@ -68,7 +68,7 @@ impl ArmLimits {
         }
     }
 
-    /// Rejects an acceleration outside the limits, which the controller would change.
+    /// Rejects an acceleration outside the limits, because the controller would replace it.
     ///
     /// # Errors
     /// A sentence with the acceleration and the limits.
@@ -83,7 +83,7 @@ impl ArmLimits {
     }
 }
 
-/// Shortest decimal number whose nearest single-precision value is `number`, such as 0.1.
+/// Shortest decimal number whose nearest single-precision value is `number`, such as 0.1; `None` if `number` is not finite.
 fn decimal(number: f32) -> Option<f64> {
     let number: Option<f64> = number.to_string().parse().ok();
     number.filter(|number| number.is_finite())

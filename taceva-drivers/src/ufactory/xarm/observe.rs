@@ -15,7 +15,7 @@ use super::report::{ArmReport, ReportKind, State, pose_of};
 use super::watch::Watch;
 use crate::link::{LinkError, Mailbox, monotonic};
 
-/// Pose and state of the arm at one moment.
+/// Pose, state and number of queued motions of the arm at one moment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Observation {
     pub(super) state: State,
@@ -41,9 +41,9 @@ impl Observation {
 pub(super) struct Observer {
     poses: Option<Watch>,
     statuses: Option<Watch>,
-    /// Time of the last query of the state.
+    /// Time of the last query of the state, on the monotonic clock.
     asked: Duration,
-    /// Time of the last query of errors.
+    /// Time of the last query of errors, on the monotonic clock.
     asked_for_errors: Duration,
 }
 

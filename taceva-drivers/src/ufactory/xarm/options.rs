@@ -1,4 +1,4 @@
-//! Options for opening an arm, from the arguments.
+//! Options for opening an arm, parsed from the arguments of the driver.
 
 use taceva_core::{ArgValue, Args, Millimetre, Point, Speed, Workspace};
 use thiserror::Error;

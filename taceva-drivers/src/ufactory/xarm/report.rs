@@ -1,4 +1,4 @@
-//! Decoder of the controller's unsolicited reports. No I/O.
+//! Decoder of the reports that the controller sends without a request. No I/O.
 
 use taceva_core::{Degree, Millimetre, Point, Pose, Rotation};
 use thiserror::Error;
@@ -20,7 +20,7 @@ pub(super) struct ArmReport {
     pub(super) state: State,
     /// Motion mode; 0 for queued positions.
     pub(super) mode: u8,
-    /// Number of queued and running motions.
+    /// Number of motions that are queued or running.
     pub(super) queued: u16,
     /// Pose of the tip in the base frame: x, y, z in mm; roll, pitch, yaw in rad; may contain NaN.
     pub(super) pose: [f32; 6],
@@ -44,7 +44,7 @@ impl State {
     pub(super) const MOVING: State = State(1);
     pub(super) const SLOWING_DOWN: State = State(6);
 
-    /// True if the arm is ready for the next motion.
+    /// True if the controller is ready for the next motion.
     pub(super) fn is_ready(self) -> bool {
         matches!(self.0, 0 | 2)
     }

@@ -40,7 +40,7 @@ pub(super) struct Stop {
     /// Writing half of the connection for motions, used if the stop connection fails.
     spare: Writer,
     place: Place,
-    /// Wakes the monitoring thread to end it.
+    /// Signal that ends the monitoring thread while it sleeps.
     bell: (Mutex<()>, Condvar),
 }
 
@@ -105,7 +105,7 @@ impl Stop {
         Ok(())
     }
 
-    /// Sends the command to stop and to clear the queue, over the stop connection or the connection for motions.
+    /// Sends the command to stop and to clear the queue. If the stop connection is busy or silent, also uses the connection for motions.
     pub(super) fn stop(&self) -> Result<(), ExchangeError> {
         let command = Command::SetState(TargetState::Stopped);
         let unanswered = |writer: &Writer| writer.send(command, self.place.firmware, UNANSWERED);

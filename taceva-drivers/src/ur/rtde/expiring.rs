@@ -35,7 +35,7 @@ impl ExpiringMotion for Arm {
 }
 
 impl Arm {
-    /// Follows `course` almost to its end. The arm still moves when this function returns.
+    /// Follows `course` almost to its end, and returns the last state. The arm still moves then.
     fn cruise(
         &mut self,
         course: &Course,

@@ -36,7 +36,7 @@ static ASKED: [Output; 7] = [
     output("target_speed_fraction", "DOUBLE", ""),
     output("output_int_register_24", "INT32", "3.9 and 5.3"),
 ];
-/// Type that the controller reports for an output that does not exist.
+/// Text that the controller sends instead of a type for an unknown output.
 const NOT_FOUND: &str = "NOT_FOUND";
 /// Integer register to which a stop program writes its number.
 pub(super) const STOP_REGISTER: u8 = 24;
@@ -55,7 +55,7 @@ pub(super) struct ArmState {
     pub(super) robot_mode: i32,
     pub(super) safety: u32,
     pub(super) runtime: u32,
-    /// Position of the speed slider, 0 to 1; may be NaN.
+    /// Position of the speed slider of the pendant, 0 to 1; may be NaN.
     pub(super) slider: f64,
     /// Number of the last stop that the controller began.
     pub(super) stop: i32,

@@ -14,13 +14,13 @@ use crate::link::{Seen, monotonic};
 pub(super) const DOING: &str = "move the arm";
 /// Greatest distance from the target that counts as arrival, mm.
 const NEAR_MM: f64 = 0.05;
-/// Time without a state after which the arm is stopped.
+/// Longest time without a state before a moving arm is stopped.
 const STALE: Duration = Duration::from_millis(250);
 /// Time from a command until an arm at the target counts as arrived, even if no state showed its program.
 const BEGUN: Duration = Duration::from_millis(100);
 /// Time from a command until an arm that runs no program away from the target counts as stopped there.
 const NEVER_BEGUN: Duration = Duration::from_millis(1_000);
-/// Time after the end of the program in which the arm may settle at its target.
+/// Time that the arm may take to reach its target after its program has ended.
 const SETTLED: Duration = Duration::from_millis(200);
 /// Time after which a stop counts as ended, from the first state that shows the stop.
 const BRAKED: Duration = Duration::from_millis(400);
@@ -68,7 +68,7 @@ impl Arm {
         Ok(first)
     }
 
-    /// Waits for the first state after all sent stops have ended or count as lost.
+    /// Waits until all stops that were sent have ended or count as lost. Returns the first state after that.
     fn after_every_stop(&self, until: Duration) -> Result<Seen<ArmState>, DriverError> {
         let left = || until.saturating_sub(monotonic());
         let mut seen = self.look(None, left())?;

@@ -18,7 +18,7 @@ pub(super) enum ArmFault {
     SafeguardStop,
     Violation,
     Fault,
-    /// The arm is off, or its brakes are closed.
+    /// Robot mode is not running: the arm is off, or its brakes are closed.
     NotRunning {
         mode: i32,
     },
@@ -32,7 +32,7 @@ const ROBOT_EMERGENCY_STOPPED: u32 = 1 << 6;
 const EMERGENCY_STOPPED: u32 = 1 << 7;
 const VIOLATION: u32 = 1 << 8;
 const FAULT: u32 = 1 << 9;
-/// Robot mode with power on and open brakes.
+/// Robot mode of an arm with power on and open brakes.
 const RUNNING: i32 = 7;
 
 impl ArmFault {

@@ -85,7 +85,7 @@ impl ScriptLine {
         !self.is_over.load(Ordering::Acquire)
     }
 
-    /// Sends a program. The controller does not confirm a program.
+    /// Sends a program. The controller does not confirm its arrival.
     pub(super) fn send(&self, program: &str) -> Result<(), LinkError> {
         let address = self.address;
         if !self.is_alive() {

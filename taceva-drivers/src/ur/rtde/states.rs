@@ -26,7 +26,7 @@ pub(super) struct States {
     reader: Option<JoinHandle<()>>,
 }
 
-/// Failure to receive states.
+/// Reason why no states are received.
 #[derive(Debug, Error)]
 pub(super) enum StatesError {
     #[error(transparent)]
