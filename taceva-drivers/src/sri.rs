@@ -1,3 +1,3 @@
-//! Force transducers of Sunrise Instruments (SRI).
+//! Drivers for force transducers of Sunrise Instruments (SRI).
 
 pub mod m8128;

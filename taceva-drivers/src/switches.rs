@@ -1,4 +1,4 @@
-//! Enabling switches of a program.
+//! Drivers of enabling switches that a program can open.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -12,7 +12,7 @@ use crate::selector::Selector;
 /// Function that opens a switch by its selector.
 type Open = Box<dyn Fn(&Selector) -> Result<Arc<dyn EnablingSwitch>, OpenError> + Send + Sync>;
 
-/// A driver of enabling switches.
+/// Registered driver of enabling switches.
 struct Entry {
     title: String,
     arguments: Vec<ArgSpec>,
@@ -33,7 +33,7 @@ pub(crate) struct LinkedSwitch {
 
 inventory::collect!(LinkedSwitch);
 
-/// Enabling switches by driver key. Switches measure nothing, so a recording does not list them as devices.
+/// Drivers of enabling switches, by key. Switches measure nothing, so a recording does not list them as devices.
 ///
 /// ```
 /// use taceva_drivers::Switches;
@@ -52,7 +52,7 @@ impl fmt::Debug for Switches {
 }
 
 impl Switches {
-    /// All switches linked into the program.
+    /// Drivers of all enabling switches that are linked into the program.
     pub fn builtin() -> Switches {
         let mut switches = Switches::default();
         for linked in inventory::iter::<LinkedSwitch> {
@@ -83,7 +83,7 @@ impl Switches {
         self.0.contains_key(key)
     }
 
-    /// Key, title and arguments of every driver, by key.
+    /// Key, title and arguments of every driver, sorted by key.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (&str, &str, &[ArgSpec])> {
         let entries = self.0.iter();
         entries.map(|(key, entry)| (key.as_str(), entry.title.as_str(), &entry.arguments[..]))
@@ -97,7 +97,7 @@ impl Switches {
         self.entry(selector).map(drop)
     }
 
-    /// Opens the switch of `selector`.
+    /// Opens the switch that `selector` names.
     ///
     /// # Errors
     /// As [`check`](Switches::check), and for a switch that does not open.

@@ -1,6 +1,6 @@
 //! Escapes text from devices and files so that it cannot control the terminal.
 
-/// Escapes the control characters of `text`.
+/// Returns `text` with control characters replaced by their escapes, such as `\n`.
 pub(crate) fn shown(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     for letter in text.chars() {

@@ -1,3 +1,3 @@
-//! Robots of UFACTORY.
+//! Drivers for robots of UFACTORY.
 
 pub mod xarm;

@@ -1,3 +1,3 @@
-//! Robots of Universal Robots.
+//! Drivers for arms of Universal Robots.
 
 pub mod rtde;

@@ -1,4 +1,4 @@
-//! Zero offset that this program subtracts, and range of a transducer.
+//! Zero offset that this program subtracts from forces and torques, and measuring range of a transducer.
 
 use std::time::Duration;
 
@@ -6,10 +6,10 @@ use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Newton, NewtonMil
 
 use crate::link::monotonic;
 
-/// Zero offset and range of one transducer.
+/// Zero offset and measuring range of one transducer.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct HostZero {
-    /// Driver for errors.
+    /// Key of the driver, for error messages.
     driver: DriverKey,
     zero: Wrench,
     /// Measuring range of each force, N; `None` if unknown.
@@ -18,17 +18,17 @@ pub(crate) struct HostZero {
     zero_max_n: Option<f64>,
 }
 
-/// Operation name of a reading, for errors.
+/// Name of the operation that reads forces, in error messages.
 pub(crate) const READ: &str = "read the force";
-/// Operation name of a tare, for errors.
+/// Name of the operation that zeroes forces, in error messages.
 pub(crate) const ZERO: &str = "zero the force";
-/// Time over which readings are averaged for a zero offset.
+/// Time over which readings are averaged to determine a zero offset.
 const MEAN_OVER: Duration = Duration::from_millis(250);
-/// Maximum zero offset as a share of the stated range. The rest of the range is for measurements.
+/// Maximum zero offset as a share of the measuring range. The rest of the range is for measurements.
 const ZERO_MAX: f64 = 0.5;
 
 impl HostZero {
-    /// Creates a zero offset of 0, for forces with one range.
+    /// Creates a zero offset of 0. All three forces have the measuring range `force_max_n`.
     pub(crate) fn new(driver: DriverKey, force_max_n: Option<f64>) -> HostZero {
         HostZero {
             zero_max_n: force_max_n.map(|most| ZERO_MAX * most),
@@ -36,7 +36,7 @@ impl HostZero {
         }
     }
 
-    /// Creates a zero offset of 0 for forces with separate ranges, which the device states. Any zero offset within the ranges is accepted.
+    /// Creates a zero offset of 0. Each force has its own measuring range, and any zero offset within the ranges is accepted.
     pub(crate) fn of_axes(driver: DriverKey, ranges_n: Option<[f64; 3]>) -> HostZero {
         HostZero {
             driver,
@@ -46,7 +46,7 @@ impl HostZero {
         }
     }
 
-    /// Fails for a force at or beyond the range.
+    /// Fails if the magnitude of a force reaches or exceeds its measuring range.
     ///
     /// # Errors
     /// `OutOfRange`, with the force and the range.
@@ -82,7 +82,7 @@ impl HostZero {
         self.zero = Wrench::default();
     }
 
-    /// Sets the zero offset to the mean over 0.25 s. `next` returns the readings.
+    /// Sets the zero offset to the mean of the readings over 0.25 s. `next` returns one reading.
     ///
     /// # Errors
     /// Errors of `next`; `Timeout` if the deadline is too near; `OutOfRange` for a load above half of a stated range.

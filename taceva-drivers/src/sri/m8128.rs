@@ -1,4 +1,4 @@
-//! `sri/m8128`: six-axis transducers behind an interface box M8128 or similar, over TCP.
+//! Driver `sri/m8128`: six-axis force transducers behind an interface box M8128 or similar, over TCP.
 
 mod box_link;
 mod command;

@@ -1,4 +1,4 @@
-//! `ufactory/xarm`: arms of the xArm family (xArm 5, 6 and 7, 850, Lite 6) by the private protocol of their control box.
+//! Driver `ufactory/xarm`: arms of the xArm family (xArm 5, 6 and 7, 850, Lite 6). It uses the private protocol of their control box.
 
 mod arm;
 mod command;

@@ -1,4 +1,4 @@
-//! `ur/rtde`: arms of Universal Robots, observed by their real-time data exchange and moved by script programs.
+//! Driver `ur/rtde`: arms of Universal Robots. It reads states by the real-time data exchange (RTDE) and moves the arm by script programs.
 
 mod arm;
 mod expiring;

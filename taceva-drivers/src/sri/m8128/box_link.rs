@@ -1,4 +1,4 @@
-//! Connection to a box: writes commands; a separate thread reads answers and readings.
+//! TCP connection to an interface box. The driver writes commands, and a separate thread reads answers and force readings.
 
 use std::io::{self, Read, Write};
 use std::net::{Shutdown, SocketAddr, TcpStream};
@@ -15,7 +15,7 @@ use super::frame::{Message, Messages, Reading};
 use crate::link::{LinkError, Mailbox, connect, monotonic};
 use crate::text::shown;
 
-/// Failure of a command.
+/// Reason why a command to the interface box failed.
 #[derive(Debug, Error)]
 pub(super) enum CommandError {
     #[error(transparent)]
@@ -27,7 +27,7 @@ pub(super) enum CommandError {
 }
 
 impl CommandError {
-    /// Kind of the failure.
+    /// Kind of the `DriverError` that this failure causes.
     pub(super) fn kind(&self) -> ErrorKind {
         match self {
             CommandError::Link(error) => error.kind(),
@@ -37,7 +37,7 @@ impl CommandError {
     }
 }
 
-/// Link to a connected box.
+/// TCP link to an interface box.
 #[derive(Debug)]
 pub(super) struct BoxLink {
     stream: TcpStream,
@@ -47,13 +47,13 @@ pub(super) struct BoxLink {
     reader: Option<JoinHandle<()>>,
 }
 
-/// A reading with the total counts of losses.
+/// Force reading, with the number of frames and bytes lost so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Counted {
     pub(super) reading: Reading,
-    /// Total number of lost frames, computed from frame numbers.
+    /// Number of frames lost since connecting, computed from gaps between frame numbers.
     pub(super) missing: u64,
-    /// Total number of skipped bytes, because they belong to no message.
+    /// Number of bytes skipped since connecting because they belong to no message.
     pub(super) lost_bytes: u64,
 }
 
@@ -86,12 +86,12 @@ impl BoxLink {
         })
     }
 
-    /// Mailbox of the readings.
+    /// Mailbox that contains the newest reading.
     pub(super) fn readings(&self) -> &Arc<Mailbox<Counted>> {
         &self.readings
     }
 
-    /// Sends `command` without waiting.
+    /// Sends `command` without waiting for an answer.
     pub(super) fn send(&mut self, command: Command) -> Result<(), LinkError> {
         let address = self.address;
         self.stream
@@ -142,7 +142,7 @@ impl Drop for BoxLink {
     }
 }
 
-/// Posts readings and sends answers until the connection ends, and returns the reason.
+/// Posts readings to `posting` and answers to `lines` until the connection ends. Returns the reason for the end.
 fn read(
     mut stream: TcpStream,
     address: SocketAddr,

@@ -2,31 +2,31 @@
 
 use super::frame::Check;
 
-/// Command to the box.
+/// Command to an interface box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Command {
-    /// Set the rate, Hz.
+    /// Set the rate of readings, Hz.
     Rate(u16),
-    /// Set the rate, Hz, on older boxes.
+    /// Set the rate of readings on older boxes, Hz.
     OldRate(u16),
-    /// Set the checksum of frames.
+    /// Select the kind of checksum in each frame.
     Check(Check),
     /// Send six channels in engineering units, one reading per frame, without smoothing.
     Units,
-    /// Start sending.
+    /// Start sending readings.
     Start,
-    /// Stop sending.
+    /// Stop sending readings.
     Stop,
-    /// Set the current load to zero.
+    /// Use the current load as the zero offset.
     Zero,
     /// Ask for the decoupling matrix, the calibration of the transducer.
     AskMatrix,
-    /// Ask for the unit of the matrix.
+    /// Ask for the unit of the decoupling matrix.
     AskUnit,
 }
 
 impl Command {
-    /// Encodes the command as a line.
+    /// Encodes the command as a text line, with `AT+` and the line end.
     pub(super) fn line(self) -> String {
         let text = match self {
             Command::Rate(hz) => format!("SMPF={hz}"),
@@ -43,7 +43,7 @@ impl Command {
         format!("AT+{text}\r\n")
     }
 
-    /// Word that the answer repeats.
+    /// Name of the command, which its answer repeats after `ACK+`.
     fn word(self) -> &'static str {
         match self {
             Command::Rate(_) => "SMPF",
@@ -57,14 +57,14 @@ impl Command {
         }
     }
 
-    /// Value in the positive answer `line` to a query; `None` without a value.
+    /// Value in `line`, the positive answer to this query; `None` if `line` has no value.
     pub(super) fn value_in(self, line: &str) -> Option<&str> {
         let answer = line.strip_prefix("ACK+")?.strip_prefix(self.word())?;
         let value = answer.strip_prefix('=')?.trim_end().strip_suffix("$OK")?;
         Some(value.trim()).filter(|value| !value.is_empty() && *value != "?")
     }
 
-    /// True for a positive answer in `line`, false for a negative answer, `None` for an answer to another command.
+    /// True if `line` is a positive answer to this command, false for a negative answer, `None` for an answer to another command.
     pub(super) fn answered_by(self, line: &str) -> Option<bool> {
         let answer = line.strip_prefix("ACK+")?.strip_prefix(self.word())?;
         let is_whole_word = answer

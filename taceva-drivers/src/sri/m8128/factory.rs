@@ -19,17 +19,17 @@ submit_builtin!(dyn ForceTransducer, || Ok(Box::new(M8128Factory::new()?)));
 /// # The physical contract
 /// - Forces and torques are in the transducer's own axes, in N and N·mm, as in its certificate. The axis that presses into the gel depends on the
 ///   mounting in the rig.
-/// - Opening changes nothing in the box. It asks for the decoupling matrix and its unit, which are settings if the box states them. Starting sets
+/// - Opening changes nothing in the box. The driver asks for the decoupling matrix and its unit, and records the answers as settings. Starting sets
 ///   rate, checksum and units, and starts the readings.
-/// - A reading is the newest frame received. Frames are checked by their checksum (`check=crc32`: CRC32 with the polynomial of zlib) and their
-///   number. Damaged and repeated frames are dropped. After a loss of synchronisation, two frames with consecutive numbers restore it. A value that
-///   is not finite is a `DeviceFault` of that reading.
-/// - Zero is the mean of 0.25 s, subtracted by the driver. With `zero=box` the box zeroes itself, which takes seconds.
-/// - `force_max_n` from the certificate makes a clipped force an error. Without it, clipping goes undetected.
+/// - A reading is the newest frame received. The driver checks the checksum of each frame (`check=crc32`: CRC32 with the polynomial of zlib) and its
+///   number. The driver drops damaged and repeated frames. Two frames with consecutive numbers restore lost synchronisation. A reading with a value
+///   that is not finite fails with `DeviceFault`.
+/// - The driver subtracts a zero offset, the mean of the readings over 0.25 s. With `zero=box` the box zeroes itself, which takes seconds.
+/// - With `force_max_n` from the certificate, a clipped force is an error. Without this argument, clipping goes undetected.
 ///
 /// # Verification
-/// The values and checksums of two published frames are tested. The driver passes its suite on an emulated box. There is no public client. **Not
-/// verified without the device**: the answers to queries and to a stop, zero in the box, and frames with CRC32. The unit of torque (N·m unless
+/// Tests check the values and checksums of two published frames. The driver passes its tests on an emulated box. There is no public client. **Not
+/// verified without the device**: the answers to queries and to a stop, zeroing in the box, and frames with CRC32. The unit of torque (N·m unless
 /// `torque=N mm`) is not verified either. The CRC's polynomial and byte order come from a single public driver.
 ///
 /// ```
@@ -46,7 +46,7 @@ pub struct M8128Factory {
     descriptor: Descriptor,
 }
 
-/// Torque units of the box, by argument value, each with its value in N·mm.
+/// Torque units of the box: value of the argument `torque`, and size of the unit in N·mm.
 const TORQUES: [(&str, f64); 2] = [("N m", 1000.0), ("N mm", 1.0)];
 
 impl M8128Factory {
@@ -129,7 +129,7 @@ fn options(args: &Args) -> M8128Options {
     }
 }
 
-/// Rounds to whole Hz.
+/// Rounds a rate of 1 to 2000 Hz to whole Hz.
 fn whole(rate_hz: f64) -> u16 {
     #[expect(
         clippy::cast_possible_truncation,

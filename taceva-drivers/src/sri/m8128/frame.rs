@@ -1,20 +1,20 @@
-//! Decoder of the box's stream: numbered frames of six values, and lines that answer commands. No I/O.
+//! Decoder of the bytes from an interface box: numbered frames of six values, and lines that answer commands. No I/O.
 
-/// One message of the box.
+/// One message from an interface box.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Message {
-    /// A reading.
+    /// Frame with one force reading.
     Reading(Reading),
     /// Answer to a command, without the line end.
     Line(String),
 }
 
-/// Reading of six raw values.
+/// Force reading of six values, before the conversion to N and N·mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reading {
     /// Sequence number, increased by one per frame, wrapping after 65535.
     pub(super) number: u16,
-    /// Fx, Fy, Fz, Mx, My, Mz, in the units of the box; may contain NaN.
+    /// Forces Fx, Fy, Fz and torques Mx, My, Mz, in the units of the box; may contain NaN.
     pub(super) values: [f32; 6],
 }
 
@@ -22,16 +22,16 @@ pub(super) struct Reading {
 #[derive(Debug, Default)]
 pub(super) struct Messages {
     waiting: Vec<u8>,
-    /// True if the last message was complete, so that the next message begins at the end of the last.
+    /// True directly after a complete message, where the next message must begin.
     is_in_place: bool,
-    /// Number of bytes skipped, because they belong to no message.
+    /// Number of bytes skipped because they belong to no message.
     lost: u64,
 }
 
 const MARK: [u8; 2] = [0xaa, 0x55];
-/// Size of the six values, bytes.
+/// Size of the six values in a frame, bytes.
 const DATA: usize = 24;
-/// Size of the head, bytes: mark, length and number.
+/// Size of the head of a frame, bytes: start mark, length field and frame number.
 const HEAD: usize = 6;
 /// Supported checksums. The length of a frame identifies the checksum.
 const CHECKS: [Check; 2] = [Check::Sum, Check::Crc32];
@@ -39,7 +39,7 @@ const CHECKS: [Check; 2] = [Check::Sum, Check::Crc32];
 /// Checksum after the values of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Check {
-    /// Sum of the bytes, which misses swapped bytes.
+    /// Sum of the bytes, modulo 256. The sum does not detect swapped bytes.
     Sum,
     /// CRC-32 with the polynomial of zlib, little-endian.
     Crc32,
@@ -59,7 +59,7 @@ impl Check {
         HEAD + DATA + self.length()
     }
 
-    /// Length field of a frame with this checksum. The length includes number, values and checksum.
+    /// Length field of a frame with this checksum. The length includes frame number, values and checksum.
     fn stated(self) -> [u8; 2] {
         let length = u16::try_from(self.frame() - 4).expect("a length of two bytes");
         length.to_be_bytes()
@@ -75,16 +75,16 @@ impl Check {
 }
 /// Prefix of answers to commands.
 const ANSWER: &[u8] = b"ACK+";
-/// Maximum length of a line, bytes.
+/// Maximum length of an answer line, bytes.
 const LINE_MAX: usize = 512;
 
-/// Classification of the first bytes of a buffer.
+/// Content at the beginning of received bytes.
 enum Start {
     /// A complete message and its length in bytes.
     Whole(Message, usize),
-    /// An incomplete message.
+    /// The beginning of a message whose other bytes have not arrived.
     Unfinished,
-    /// No message.
+    /// Bytes that begin no message.
     Foreign,
 }
 
@@ -94,7 +94,7 @@ impl Messages {
         self.waiting.extend_from_slice(bytes);
     }
 
-    /// Total number of skipped bytes.
+    /// Number of bytes skipped so far because they belong to no message.
     pub(super) fn lost(&self) -> u64 {
         self.lost
     }
@@ -123,8 +123,8 @@ impl Messages {
         found
     }
 
-    /// True if `message`, which ends at `end`, can be trusted. Before synchronisation, a frame counts only if the next frame has the next number, because
-    /// values may contain a mark and checksum by chance.
+    /// True if `message`, which ends at byte `end` of the buffer, can be trusted. Bytes of values may look like a frame by chance. Before
+    /// synchronisation, a frame is trusted only if an answer or the frame with the next number follows.
     fn is_trusted(&self, message: &Message, end: usize) -> bool {
         let Message::Reading(reading) = message else {
             return true;
@@ -193,7 +193,7 @@ mod tests {
     use super::*;
     use crate::link::hexadecimal;
 
-    /// Frame of the example in the manual.
+    /// Example frame in the manual of the box, in hexadecimal.
     const GOLDEN: &str = "AA55 001B C4C7 016AF4C0 EF7D33C0 4962C9C0 A25CC6BD A6198FBD AFDA693E 6E";
 
     fn frame(number: u16, values: [f32; 6]) -> Vec<u8> {
@@ -203,7 +203,7 @@ mod tests {
         [&head[..], &number.to_be_bytes()[..], &data[..], &[sum][..]].concat()
     }
 
-    /// Example frame of the manual with a checksum of four bytes.
+    /// Frame with `number`, `values` and a CRC-32 of four bytes.
     fn frame_crc32(number: u16, values: [f32; 6]) -> Vec<u8> {
         let mut frame = frame(number, values);
         frame.pop();

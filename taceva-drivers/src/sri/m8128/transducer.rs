@@ -1,4 +1,4 @@
-//! Force transducer behind an SRI box.
+//! Force transducer that is read through an SRI interface box.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -17,16 +17,16 @@ use crate::link::Seen;
 use crate::text::shown;
 use crate::zero::{HostZero, READ, ZERO};
 
-/// Options of a box.
+/// Options for opening an interface box.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct M8128Options {
     pub(super) host: String,
     pub(super) port: u16,
     pub(super) rate_hz: u16,
     pub(super) check: Check,
-    /// Measuring range, N; `None` if unknown.
+    /// Measuring range of the forces, N; `None` if unknown.
     pub(super) force_max_n: Option<f64>,
-    /// Value of the box's torque unit, N·mm.
+    /// Size of the box's torque unit, N·mm.
     pub(super) torque_unit_nmm: f64,
     pub(super) zero: Zero,
 }
@@ -34,29 +34,29 @@ pub(super) struct M8128Options {
 /// Device that subtracts the zero offset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Zero {
-    /// The driver subtracts the mean of some readings.
+    /// The driver subtracts the mean of the readings over 0.25 s.
     Host,
-    /// The box sets its zero, and must not send readings meanwhile.
+    /// The box stores and subtracts the zero offset. The driver stops the readings while the box sets the offset.
     Box,
 }
 
-/// A connected transducer.
+/// Force transducer behind a connected interface box.
 #[derive(Debug)]
 pub(super) struct Transducer {
     link: BoxLink,
     options: M8128Options,
-    /// Zero offset, subtracted from every reading.
+    /// Zero offset that is subtracted from every reading, and measuring range.
     zero: HostZero,
-    /// Facts that the box states about itself.
+    /// Decoupling matrix and its unit, by name, if the box states them.
     facts: BTreeMap<String, String>,
     is_running: bool,
     /// Sequence number of the last reading; `None` before the first.
     sequence: Option<u64>,
-    /// Mailbox number of the reading that was returned last.
+    /// Mailbox number of the reading that the driver returned last.
     last: u64,
 }
 
-/// Timeout for an answer.
+/// Timeout for the answer to a command that changes a setting.
 const ANSWER: Duration = Duration::from_millis(800);
 /// Timeout for the answer to a stop, which some boxes omit.
 const STOPPED: Duration = Duration::from_millis(150);
@@ -73,7 +73,7 @@ fn failed(
     DriverError::new(kind, &KEY, doing).because(why)
 }
 
-/// Facts that the box states about itself, by name. Facts without an answer are absent.
+/// Queries the decoupling matrix and its unit. Returns the answers by name, and omits a query without a valid answer.
 fn stated_facts(link: &mut BoxLink) -> BTreeMap<String, String> {
     let mut facts = BTreeMap::new();
     for (name, query) in [
@@ -90,7 +90,7 @@ fn stated_facts(link: &mut BoxLink) -> BTreeMap<String, String> {
 }
 
 impl Transducer {
-    /// Connects to a box. Settings of the box change only at the start of readings.
+    /// Connects to a box. The settings of the box stay unchanged until readings start.
     pub(super) fn open(options: M8128Options) -> Result<Transducer, DriverError> {
         let mut link = BoxLink::open(&options.host, options.port)
             .map_err(|error| failed(error.kind(), "connect to the box", error))?;
@@ -149,7 +149,7 @@ impl Transducer {
         Ok(seen)
     }
 
-    /// Describes all losses; empty if there are none.
+    /// Describes lost frames and bytes for an error message; empty if there are none.
     fn losses(&self) -> String {
         match self.link.readings().newest().map(|seen| seen.what) {
             Some(Counted {
@@ -163,7 +163,7 @@ impl Transducer {
         }
     }
 
-    /// Converts a reading to N and N·mm, before the zero offset is subtracted.
+    /// Converts a reading to N and N·mm and checks its range. Does not subtract the zero offset.
     fn wrench(&self, reading: &Reading) -> Result<Wrench, DriverError> {
         let [fx, fy, fz, mx, my, mz] = reading.values.map(f64::from);
         let unit = self.options.torque_unit_nmm;

@@ -1,4 +1,4 @@
-//! Robot that is an xArm.
+//! Robot implementation for an xArm.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -25,7 +25,7 @@ use crate::link::watch::{LOOK, ReportedPose};
 /// A connected arm.
 #[derive(Debug)]
 pub(super) struct Arm {
-    /// Dropped before the connections that it uses.
+    /// Monitor of the stop connection. The first field is dropped before the connections that the monitor uses.
     keeper: Keeper,
     pub(super) exchange: Exchange,
     pub(super) observer: Observer,
@@ -33,18 +33,18 @@ pub(super) struct Arm {
     is_emulated: bool,
     /// Answer of the controller to the version query.
     version: String,
-    /// Limits of the controller; `None` if unknown.
+    /// Speed and acceleration limits of the controller; `None` if unknown.
     limits: Option<ArmLimits>,
 }
 
 /// Prefix of the serial number of an emulated arm (`taceva-wire`).
 const EMULATED: &str = "TACEVA-SIM";
 
-/// Version for unknown firmware. Commands for it have an encoding that never changed.
+/// Version assumed until the controller answers the version query. The encoding of this query is the same in all versions.
 const UNKNOWN: Firmware = Firmware::new(0, 0, 0);
 
 impl Arm {
-    /// Connects to an arm. Nothing moves and no state changes.
+    /// Connects to an arm without moving it or changing its state.
     pub(super) fn open(options: XarmOptions) -> Result<Arm, DriverError> {
         let doing = "connect to the arm";
         let XarmOptions { host, port, .. } = &options;
@@ -89,7 +89,7 @@ impl Arm {
         self.keeper.stop()
     }
 
-    /// Makes the controller ready after a stop by this driver. Fails if an error requires a person.
+    /// Makes the controller ready after a stop by this driver. Fails if the controller reports an error.
     pub(super) fn stand_by(&mut self, doing: &'static str) -> Result<(), DriverError> {
         if let Some(fault) = error_now(&mut self.exchange).map_err(unanswered(doing))? {
             return Err(fault.met(doing));
@@ -100,7 +100,7 @@ impl Arm {
         self.take(Mode::Position, doing)
     }
 
-    /// Checks that a motion to `target` is within the limits.
+    /// Checks that `target` is in the workspace, and that `speed` is within the limits of the options and of the controller.
     pub(super) fn admit(&self, target: &Pose, speed: Speed) -> Result<(), DriverError> {
         let doing = "move the arm";
         check_pose(target).map_err(|error| failed(ErrorKind::InvalidArgument, doing, error))?;
@@ -141,7 +141,7 @@ impl Arm {
         self.see_ready(mode)
     }
 
-    /// Waits until a report shows the ready state. Earlier reports may still show the stop.
+    /// Waits up to 0.3 s for a report that shows the ready state and `mode`. Older reports may still show an earlier stop.
     fn see_ready(&mut self, mode: Mode) -> Result<(), DriverError> {
         let until = monotonic() + ANSWER;
         let mut last = self.observer.observe(&mut self.exchange, None, ANSWER)?;
@@ -155,14 +155,14 @@ impl Arm {
     }
 }
 
-/// Pose of a report. Fails for values that are not finite.
+/// Converts the pose of a report. Fails if a number is not finite.
 fn reported_pose(report: &ArmReport) -> Result<Pose, DriverError> {
     let pose = pose_of(report.pose);
     check_pose(&pose).map_err(|error| failed(ErrorKind::DeviceFault, LOOK, error))?;
     Ok(pose)
 }
 
-/// Highest number of a state without a stop: ready, moving and paused are 0 to 3.
+/// Highest state number of an arm that is not stopped. States 0 to 3 are ready, moving and paused.
 const LAST_GOOD_STATE: u8 = 3;
 
 impl Robot for Arm {

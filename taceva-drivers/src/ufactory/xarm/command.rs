@@ -1,4 +1,4 @@
-//! Encoding of the used requests and decoding of their answers. No I/O.
+//! Encoding of requests to the controller and decoding of its answers. No I/O.
 
 use super::firmware::Firmware;
 use super::frame::{Reply, Request};
@@ -8,13 +8,13 @@ use super::frame::{Reply, Request};
 pub(super) enum Command {
     /// Query the firmware version.
     GetVersion,
-    /// Become ready, or stop.
+    /// Set the state: become ready, or stop.
     SetState(TargetState),
-    /// Query the state.
+    /// Query the state of the controller.
     GetState,
     /// Query the number of queued motions.
     GetQueued,
-    /// Query error and warning.
+    /// Query the codes of the current error and warning.
     GetError,
     /// Set the motion mode.
     SetMode(Mode),
@@ -22,32 +22,32 @@ pub(super) enum Command {
     GetPose,
     /// Move in a straight line.
     MoveLine(MoveLine),
-    /// Move at a velocity that expires.
+    /// Move at a velocity that ends after a stated time.
     MoveVelocity(MoveVelocity),
 }
 
-/// Motion mode.
+/// Motion mode of the controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Mode {
-    /// Queued positions.
+    /// Moves to queued positions.
     Position = 0,
-    /// Velocities of the tip.
+    /// Moves at the commanded velocity of the tip.
     Velocity = 5,
 }
 
-/// Target state.
+/// State that a command requests from the controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TargetState {
-    /// Ready for motions.
+    /// Accepts motions.
     Ready = 0,
-    /// Stopped, with an empty queue.
+    /// Stops, and empties the queue of motions.
     Stopped = 4,
 }
 
 /// A straight motion of the tip in the base frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct MoveLine {
-    /// x, y, z in mm, roll, pitch, yaw in rad. All six are sent, since the controller replaces omitted numbers.
+    /// Target pose: x, y, z in mm; roll, pitch, yaw in rad. All six are sent, because the controller fills in omitted numbers itself.
     pub(super) pose: [f32; 6],
     pub(super) speed_mm_s: f32,
     pub(super) acceleration_mm_s2: f32,
@@ -71,7 +71,7 @@ const MOVE_LINE: u8 = 21;
 const GET_POSE: u8 = 41;
 const MOVE_VELOCITY: u8 = 82;
 
-/// Blending radius that disables blending of consecutive lines.
+/// Blending radius that makes the tip stop at the end of each line.
 const NO_BLENDING: f32 = -1.0;
 
 impl Command {
@@ -97,7 +97,7 @@ impl Command {
         }
     }
 
-    /// Name of the command in messages.
+    /// Name of the command in error messages.
     pub(super) fn name(self) -> &'static str {
         match self {
             Command::GetVersion => "the query of its version",
@@ -152,14 +152,14 @@ impl MoveLine {
     }
 }
 
-/// Values that answers contain.
+/// Decoders of the values in an answer.
 impl Reply {
-    /// State; `None` if the answer is too short.
+    /// State number of the controller; `None` if the answer is too short.
     pub(super) fn state(&self) -> Option<u8> {
         self.parameters.first().copied()
     }
 
-    /// Number of queued motions; `None` if the answer is too short.
+    /// Number of queued motions in the answer; `None` if the answer is too short.
     pub(super) fn queued(&self) -> Option<u16> {
         self.parameters
             .first_chunk()
@@ -167,7 +167,7 @@ impl Reply {
             .map(u16::from_be_bytes)
     }
 
-    /// Error and warning codes; `None` if the answer is too short.
+    /// Error code and warning code in the answer; `None` if the answer is too short.
     pub(super) fn codes(&self) -> Option<[u8; 2]> {
         self.parameters.first_chunk().copied()
     }
@@ -177,14 +177,14 @@ impl Reply {
         floats(&self.parameters)
     }
 
-    /// Text without trailing zeros.
+    /// Text of the answer, without trailing NUL characters.
     pub(super) fn text(&self) -> String {
         let text = String::from_utf8_lossy(&self.parameters);
         text.trim_end_matches('\0').to_owned()
     }
 }
 
-/// First six little-endian numbers of `bytes`; `None` if there are fewer.
+/// First six little-endian single-precision numbers of `bytes`; `None` if `bytes` is too short.
 pub(super) fn floats(bytes: &[u8]) -> Option<[f32; 6]> {
     let bytes: &[u8; 24] = bytes.first_chunk()?;
     Some(std::array::from_fn(|index| {
@@ -215,7 +215,7 @@ mod tests {
         })
     }
 
-    /// Frames that xarm-python-sdk 1.18.4 sends for the same calls, without the header.
+    /// Compares requests with those that xarm-python-sdk 1.18.4 sends for the same calls. Headers are omitted.
     #[test]
     fn commands_are_those_of_the_public_client_for_both_layouts() {
         let recorded = [

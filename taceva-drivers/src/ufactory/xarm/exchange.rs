@@ -1,4 +1,4 @@
-//! Connection to port 502: sends queries; a separate thread reads the answers.
+//! Connection for commands and queries to the controller. A separate thread reads the answers.
 
 use std::io::{self, Read, Write};
 use std::net::{Shutdown, SocketAddr, TcpStream};
@@ -16,7 +16,7 @@ use super::firmware::Firmware;
 use super::frame::{FrameError, Replies, Reply};
 use crate::link::{LinkError, connect};
 
-/// Failure of a query.
+/// Reason why a command or query to the controller failed.
 #[derive(Debug, Error)]
 pub(super) enum ExchangeError {
     #[error(transparent)]
@@ -41,7 +41,7 @@ pub(super) enum ExchangeError {
 }
 
 impl ExchangeError {
-    /// Kind of the failure.
+    /// Kind of the `DriverError` that this failure causes.
     pub(super) fn kind(&self) -> ErrorKind {
         match self {
             ExchangeError::Link(error) => error.kind(),
@@ -62,7 +62,7 @@ pub(super) struct Writer {
 }
 
 impl Writer {
-    /// Sends a command with the number `transaction`, without waiting.
+    /// Sends a command with the transaction number `transaction`. Does not wait for an answer.
     pub(super) fn send(
         &self,
         command: Command,
@@ -84,7 +84,7 @@ impl Writer {
     }
 }
 
-/// A connection with one pending query at a time.
+/// Connection to the controller, with at most one pending query.
 #[derive(Debug)]
 pub(super) struct Exchange {
     writer: Writer,
@@ -145,7 +145,7 @@ impl Exchange {
         self.firmware
     }
 
-    /// Writing half, for sending while another caller waits for an answer.
+    /// Writing half of the connection. It can send while another caller waits for an answer.
     pub(super) fn writer(&self) -> Writer {
         self.writer.clone()
     }
@@ -194,7 +194,7 @@ impl Exchange {
     }
 }
 
-/// Last transaction number before wrapping to 1. [`UNANSWERED`] is reserved for commands whose answer is not awaited.
+/// Last transaction number; the next number is 1. [`UNANSWERED`] is reserved for commands whose answer is not awaited.
 const TRANSACTION_MAX: u16 = u16::MAX - 1;
 /// Transaction number of commands whose answer is not awaited.
 pub(super) const UNANSWERED: u16 = u16::MAX;
@@ -209,7 +209,7 @@ impl Drop for Exchange {
     }
 }
 
-/// Passes every answer to `hand_over`, and finally the reason for the end of the connection.
+/// Passes every answer to `hand_over`, then the reason for the end of the connection. Returns early if `hand_over` returns false.
 fn read(
     mut stream: TcpStream,
     address: SocketAddr,

@@ -1,4 +1,4 @@
-//! Motion by velocities that expire. The controller stops if velocities are no longer renewed.
+//! Motion by velocities that expire. The controller stops the arm unless the driver renews the velocity in time.
 
 use std::time::Duration;
 
@@ -82,7 +82,7 @@ impl Arm {
     }
 }
 
-/// Velocity command along `course`.
+/// Command to move with the velocity of `course`.
 fn velocity(course: &Course) -> Command {
     #[expect(clippy::cast_possible_truncation, reason = "the protocol sends f32")]
     let velocity_mm_s = course.velocity_mm_s().map(|side| side as f32);

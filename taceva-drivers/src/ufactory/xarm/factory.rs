@@ -19,22 +19,22 @@ submit_builtin!(dyn Robot, || Ok(Box::new(XarmFactory::new()?)));
 /// - Poses are of the tool in the **base frame** of the arm, in mm and degrees (roll, pitch, yaw), as UFACTORY Studio shows them.
 /// - Opening connects and changes nothing. The arm must be enabled, in position mode and without an error. A person does that in UFACTORY
 ///   Studio: this driver never enables motors and never clears an error.
-/// - A move is one straight line with all six numbers of the pose. It ends once the controller is ready, its queue is empty and the
+/// - A move is one straight line with all six numbers of the pose. The move ends once the controller is ready, its queue is empty and the
 ///   reported pose is within 0.05 mm of the target.
-/// - Speeds and accelerations outside the limits of the controller's complete report are refused, because the controller would change them without an
-///   error. Without that report the limits are unknown, and the driver gives a warning.
-/// - An expiring motion uses velocities that last 0.2 s (register 82, since firmware 1.10.0), renewed 20 times per second. Its last 0.1 s
-///   is a line. For this the mode of the controller changes and then changes back, which stops the arm for a moment.
-/// - A halt uses a separate connection, which is tested twice per second; without it no move begins. The controller confirms the halt.
-///   After 40 ms without an answer the halt is also sent over the other connection. `clear_halt` makes the controller ready again unless it has
-///   an error.
+/// - The controller states its limits in a report on `rich_port`. The driver refuses speeds and accelerations outside these limits, because the
+///   controller would change them without an error. Without this report the limits are unknown, and the driver gives a warning.
+/// - An expiring motion uses velocities that last 0.2 s (register 82, since firmware 1.10.0). The driver renews them 20 times per second. The last
+///   0.1 s of the path is a move. The arm stops for a moment whenever the controller changes between velocity mode and position mode.
+/// - A halt uses a separate connection, which the driver tests twice per second. No move begins without this connection. The controller confirms
+///   the halt. After 40 ms without an answer, the driver also sends the halt over the connection for moves. `clear_halt` makes the controller
+///   ready again unless it has an error.
 /// - The emergency stop, a collision, the safety boundary and every other error of the controller end a move with `DeviceFault`.
 ///
 /// # Verification
 /// Frames match those of the public client `xarm-python-sdk` 1.18.4, for both layouts of a straight line (before and since firmware
-/// 1.11.100). The driver passes its suite on an emulated controller, which serves that client too. **Not verified without the device**: how
-/// fast an arm stops, how exactly it keeps a velocity and reaches its end, and how long a controller keeps an idle connection. Also whether
-/// the pose of port 30003 is measured or commanded.
+/// 1.11.100). The driver passes its tests on an emulated controller, which serves that client too. **Not verified without the device**: how
+/// fast an arm stops, how exactly it keeps a velocity and reaches its end, and how long an idle connection lasts. Also whether the pose of
+/// port 30003 is measured or commanded.
 ///
 /// ```
 /// use taceva_drivers::ufactory::xarm::XarmFactory;

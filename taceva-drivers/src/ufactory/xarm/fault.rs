@@ -1,4 +1,4 @@
-//! Meaning of the controller's error codes, and the codes that need a person.
+//! Meaning of the controller's error codes, and their kinds of fault.
 
 use std::fmt;
 
@@ -9,12 +9,12 @@ use super::error::failed;
 /// Error of the controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct XarmFault {
-    /// Error code in the vendor's documents.
+    /// Error code, as listed in the vendor's documents.
     pub(super) code: u8,
 }
 
 impl XarmFault {
-    /// Kind of an error that requires a person; `None` for other errors.
+    /// Kind of fault for an emergency stop, a servo fault, a collision or the safety boundary; `None` for other errors.
     fn kind(self) -> Option<Fault> {
         match self.code {
             1..=3 => Some(Fault::EmergencyStop),
@@ -34,7 +34,7 @@ impl XarmFault {
         }
     }
 
-    /// Meaning of the code.
+    /// Meaning of the error code, for messages.
     fn meaning(self) -> &'static str {
         match self.code {
             1..=3 => "the emergency stop was pressed",

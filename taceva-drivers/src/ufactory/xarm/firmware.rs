@@ -36,18 +36,18 @@ impl Firmware {
         })
     }
 
-    /// True if the request for a line has a blending radius and three switches after its nine numbers.
+    /// True if a request for a straight motion has a blending radius and three bytes of switches after its nine numbers.
     pub(super) fn takes_long_lines(self) -> bool {
         self >= Firmware::new(1, 11, 100)
     }
 
-    /// True if velocities expire. Older controllers keep the last velocity. The vendor's client uses durations since 1.8.0. This driver needs 1.10.0,
-    /// the oldest version of which frames were recorded.
+    /// True if the controller stops when a velocity expires. Older controllers keep the last velocity. The vendor's client sends durations since
+    /// firmware 1.8.0. This driver requires 1.10.0, because no frames of older firmware were recorded.
     pub(super) fn takes_expiring_velocities(self) -> bool {
         self >= Firmware::new(1, 10, 0)
     }
 
-    /// True if the request for a mode has a switch after the mode.
+    /// True if a request to set the mode has a switch for collision detection.
     pub(super) fn takes_collision_detection(self) -> bool {
         self >= Firmware::new(1, 10, 0)
     }
@@ -59,7 +59,7 @@ fn leading_number(text: &str) -> Option<u32> {
     text[..end.unwrap_or(text.len())].parse().ok()
 }
 
-/// Error for an answer without a version.
+/// Error for an answer that contains no firmware version.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("it reports the version `{}`, expected a version such as `v2.7.0`", shown(.text))]
 pub(super) struct UnknownVersion {

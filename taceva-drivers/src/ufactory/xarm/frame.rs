@@ -2,26 +2,26 @@
 
 use thiserror::Error;
 
-/// Request: register and parameters.
+/// Request to the controller: register and parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Request {
     pub(super) register: u8,
     pub(super) parameters: Vec<u8>,
 }
 
-/// Size of the header, bytes: transaction, protocol and length, two each.
+/// Size of the header, bytes. Transaction number, protocol number and length have two bytes each.
 const HEADER: usize = 6;
-/// Number of the private protocol without keep-alive. The controller does not disconnect idle clients.
+/// Protocol number without keep-alive: the controller does not disconnect idle clients.
 const PROTOCOL: u16 = 2;
-/// Number of the private protocol with keep-alive, in answers of some controllers.
+/// Protocol number with keep-alive, which some controllers use in their answers.
 const PROTOCOL_KEEP_ALIVE: u16 = 3;
-/// Maximum length of an answer, bytes. Answers of the used registers have about 50 bytes. A larger value means lost synchronisation.
+/// Maximum length of an answer, bytes. Answers to this driver have about 50 bytes. A greater length means lost synchronisation.
 const LENGTH_MAX: usize = 1024;
-/// Register of unsolicited messages of the controller.
+/// Register of messages that the controller sends without a request.
 const FEEDBACK: u8 = 0xff;
 
 impl Request {
-    /// Encodes the request with the number `transaction`, which the answer repeats.
+    /// Encodes the request with the transaction number `transaction`, which the answer repeats.
     pub(super) fn encode(&self, transaction: u16) -> Vec<u8> {
         let length = u16::try_from(1 + self.parameters.len()).unwrap_or(u16::MAX);
         let mut bytes = Vec::with_capacity(HEADER + usize::from(length));
@@ -43,7 +43,7 @@ pub(super) struct Reply {
     pub(super) parameters: Vec<u8>,
 }
 
-/// Status byte of every answer.
+/// Status of the controller, in one byte of every answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Status(pub(super) u8);
 
@@ -53,7 +53,7 @@ impl Status {
         self.0 & 0x40 != 0
     }
 
-    /// True if the command or its parameters are unknown.
+    /// True if the controller does not know the command or its parameters.
     pub(super) fn is_invalid(self) -> bool {
         self.0 & 0x08 != 0
     }
@@ -64,7 +64,7 @@ impl Status {
     }
 }
 
-/// Invalid answer. Synchronisation is lost and cannot be restored, because frames have no mark.
+/// Error for an invalid answer. The decoder cannot find the next frame, because frames have no start mark.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(super) enum FrameError {
     #[error("a header of protocol {found:#06x}, expected 2 or 3")]
@@ -123,7 +123,7 @@ impl Replies {
 mod tests {
     use super::*;
 
-    /// Answer to `get_position()` at (300, 0, 300, π, 0, 0), as the public client accepts it.
+    /// Answer to `get_position()` at (300 mm, 0, 300 mm, π rad, 0, 0), in hexadecimal. The public client accepts this answer.
     const POSE: &str = "000a 0003 001a 29 00 00009643 00000000 00009643 db0f4940 00000000 00000000";
 
     fn bytes(hexadecimal: &str) -> Vec<u8> {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::text::shown;
 
-/// Settings of an arm by name: serial numbers and firmware of its answer `version`.
+/// Serial numbers and firmware of an arm, by setting name, from `version`, its answer to the version query.
 pub(super) fn settings(version: &str) -> BTreeMap<String, String> {
     let parts: Vec<&str> = version.split(',').map(str::trim).collect();
     let mut settings = BTreeMap::new();

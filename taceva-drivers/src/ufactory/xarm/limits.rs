@@ -1,4 +1,4 @@
-//! Speed and acceleration limits of a controller, read from one of its complete reports.
+//! Speed and acceleration limits of a controller, read from one report.
 
 use std::io::Read;
 use std::time::Duration;
@@ -7,7 +7,7 @@ use taceva_core::Speed;
 
 use crate::link::connect;
 
-/// Speed and acceleration limits of the tip. A controller changes values outside the limits without an error.
+/// Speed and acceleration limits of the tip. The controller replaces commanded values outside the limits without an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ArmLimits {
     /// Least and greatest speed, mm/s.
@@ -16,14 +16,14 @@ pub(super) struct ArmLimits {
     pub(super) acceleration_mm_s2: [f64; 2],
 }
 
-/// Longest wait for a report; the controller sends five per second.
+/// Longest wait for a report with limits; the controller sends five per second.
 const PATIENCE: Duration = Duration::from_secs(1);
-/// Offset of the least acceleration in a report, bytes. The greatest acceleration and both speeds follow.
+/// Offset of the least acceleration in a report, bytes. The greatest acceleration, the least speed and the greatest speed follow.
 const LIMITS: usize = 185;
 const REPORT: usize = LIMITS + 16;
 
 impl ArmLimits {
-    /// Reads a report of `port` of `host`. `None` if the port is closed, sends no complete report in time, or states no limits.
+    /// Reads the limits from a report on `port` of `host`. `None` if the port is closed, sends no complete report in time, or states no limits.
     pub(super) fn ask(host: &str, port: u16) -> Option<ArmLimits> {
         let (mut stream, _) = connect(host, port).ok()?;
         stream.set_read_timeout(Some(PATIENCE)).ok()?;
@@ -51,7 +51,7 @@ impl ArmLimits {
         .filter(|_| is_complete)
     }
 
-    /// Rejects a speed outside the limits, which the controller would change.
+    /// Rejects a speed outside the limits, because the controller would replace it.
     ///
     /// # Errors
     /// A sentence with the speed and the limits.
@@ -68,7 +68,7 @@ impl ArmLimits {
         }
     }
 
-    /// Rejects an acceleration outside the limits, which the controller would change.
+    /// Rejects an acceleration outside the limits, because the controller would replace it.
     ///
     /// # Errors
     /// A sentence with the acceleration and the limits.
@@ -83,7 +83,7 @@ impl ArmLimits {
     }
 }
 
-/// Shortest decimal number whose nearest single-precision value is `number`, such as 0.1.
+/// Shortest decimal number whose nearest single-precision value is `number`, such as 0.1; `None` if `number` is not finite.
 fn decimal(number: f32) -> Option<f64> {
     let number: Option<f64> = number.to_string().parse().ok();
     number.filter(|number| number.is_finite())
@@ -93,7 +93,7 @@ fn decimal(number: f32) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// Report of `length` bytes with these limits.
+    /// Report that states a length of `length` bytes. `limits` are the least and greatest acceleration, then the least and greatest speed.
     fn report(length: u32, limits: [f32; 4]) -> [u8; REPORT] {
         let mut report = [0; REPORT];
         report[..4].copy_from_slice(&length.to_be_bytes());

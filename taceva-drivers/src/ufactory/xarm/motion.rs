@@ -1,4 +1,4 @@
-//! One straight motion, from the first report to rest.
+//! One straight motion of the tip, from the first report until the tip is at rest.
 
 use std::time::Duration;
 
@@ -12,15 +12,15 @@ use super::report::{State, numbers_of, pose_of};
 use crate::link::monotonic;
 
 pub(super) const DOING: &str = "move the arm";
-/// Tolerance at the target, mm. Half the repeatability of the best arms of the family.
+/// Greatest distance from the target that counts as arrival, mm: half the repeatability of the best arms of the family.
 const NEAR_MM: f64 = 0.05;
-/// Time after which a motion counts as complete if the controller is ready and the arm is at the target.
+/// Time from a command until a ready arm at the target counts as arrived, even if no report showed the motion.
 const BEGUN: Duration = Duration::from_millis(50);
-/// Time after which a motion counts as never begun if the controller is ready and the arm is elsewhere.
+/// Time from a command until a ready arm away from the target counts as stopped there.
 const NEVER_BEGUN: Duration = Duration::from_millis(1_000);
-/// Time to wait until a stopped arm is at rest.
+/// Longest wait until a stopped arm is at rest.
 const STOPPING: Duration = Duration::from_millis(400);
-/// Time that a motion waits for the stop connection. Reconnecting takes less.
+/// Longest wait of a motion until the stop connection answers. Reconnecting takes less time.
 const STOPPABLE: Duration = Duration::from_secs(2);
 
 /// Error of a motion that did not reach its target.
@@ -71,7 +71,7 @@ impl Arm {
         self.end(ended)
     }
 
-    /// Ends a motion. Stops the arm if the motion is incomplete.
+    /// Returns the result `ended` of a motion. Stops the arm first if the result is an error.
     pub(super) fn end<T>(&mut self, ended: Result<T, BrokenOff>) -> Result<T, DriverError> {
         let BrokenOff { error, is_stopped } = match ended {
             Ok(done) => return Ok(done),
@@ -191,7 +191,7 @@ impl Arm {
         })
     }
 
-    /// Error for a controller in `state`, in which it does not move.
+    /// Error for an arm that does not move, because its controller is in `state`.
     pub(super) fn not_ready(&mut self, state: State) -> BrokenOff {
         let error = if self.stopping().is_halted() {
             halted()

@@ -15,42 +15,42 @@ use super::report::{ArmReport, ReportKind, State, pose_of};
 use super::watch::Watch;
 use crate::link::{LinkError, Mailbox, monotonic};
 
-/// Pose and state of the arm at one moment.
+/// Pose, state and number of queued motions of the arm at one moment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Observation {
     pub(super) state: State,
     pub(super) queued: u16,
-    /// x, y, z in mm, roll, pitch, yaw in rad; may contain NaN.
+    /// Pose of the tip: x, y, z in mm; roll, pitch, yaw in rad; may contain NaN.
     pub(super) pose: [f32; 6],
-    /// Time on the monotonic clock.
+    /// Time of the observation on the monotonic clock.
     pub(super) at: Duration,
-    /// Number of the report; 0 for a query.
+    /// Number of the report in its mailbox; 0 for a queried state.
     number: u64,
 }
 
 impl Observation {
-    /// Checked pose.
+    /// Pose of the tip. Fails if a number is not finite.
     pub(super) fn pose(&self) -> Result<Pose, NotFinite> {
         let pose = pose_of(self.pose);
         check_pose(&pose).map(|()| pose)
     }
 }
 
-/// Observer of the report ports that accept connections.
+/// Observes the arm by the report ports that accept connections, or by queries.
 #[derive(Debug)]
 pub(super) struct Observer {
     poses: Option<Watch>,
     statuses: Option<Watch>,
-    /// Time of the last query of the state.
+    /// Time of the last query of the state, on the monotonic clock.
     asked: Duration,
-    /// Time of the last query of errors.
+    /// Time of the last query of errors, on the monotonic clock.
     asked_for_errors: Duration,
 }
 
 /// Minimum interval of state queries. The controller supports no higher rate.
 const ASKED_EVERY: Duration = Duration::from_millis(10);
 const ASKED_FOR_ERRORS_EVERY: Duration = Duration::from_millis(100);
-/// Timeout for an answer.
+/// Timeout for the answer to a query.
 pub(super) const ANSWER: Duration = Duration::from_millis(300);
 /// Timeout for the next pose report of a moving arm, which sends 100 per second.
 pub(super) const STALE: Duration = Duration::from_millis(250);
@@ -82,7 +82,7 @@ impl Observer {
         self.poses.as_ref().map(Watch::mailbox)
     }
 
-    /// Current state of the arm: newer than `last`, or without `last` from a report at most a fifth of [`STALE`] old.
+    /// Waits up to `patience` for a state of the arm that is newer than `last`. Without `last`, accepts a report at most a fifth of [`STALE`] old.
     pub(super) fn observe(
         &mut self,
         exchange: &mut Exchange,
@@ -116,7 +116,7 @@ impl Observer {
         })
     }
 
-    /// Queries the state of the arm.
+    /// Queries the state, the number of queued motions and the pose, at most every 10 ms.
     fn ask(
         &mut self,
         exchange: &mut Exchange,
@@ -162,13 +162,13 @@ impl Observer {
         error_now(exchange)
     }
 
-    /// True if all motors are on; `None` without reports. Only the first five joints are checked, since most arms lack the seventh.
+    /// True if the motors of the first five joints are on; `None` without reports. Other joints are ignored, because some arms lack them.
     pub(super) fn is_enabled(&self) -> Option<bool> {
         let status = self.statuses.as_ref()?.newest()?.what.status?;
         Some(status.enabled & FIRST_JOINTS == FIRST_JOINTS)
     }
 
-    /// Motion mode; `None` without reports.
+    /// Motion mode in the newest report; `None` without reports.
     pub(super) fn mode(&self) -> Option<u8> {
         let watches = [&self.poses, &self.statuses];
         let newest = watches.into_iter().flatten().find_map(Watch::newest)?;
@@ -176,10 +176,10 @@ impl Observer {
     }
 }
 
-/// Mask of the joints that every arm of the family has.
+/// Bit mask of the five joints that every xArm has.
 const FIRST_JOINTS: u8 = 0b1_1111;
 
-/// Queries the state. A late report may show a stop that has ended.
+/// Queries the current state of the controller. Reports may arrive late and show a stop that has ended.
 pub(super) fn state_now(
     exchange: &mut Exchange,
     patience: Duration,

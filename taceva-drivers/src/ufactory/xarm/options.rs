@@ -1,4 +1,4 @@
-//! Options for opening an arm, from the arguments.
+//! Options for opening an arm, parsed from the arguments of the driver.
 
 use taceva_core::{ArgValue, Args, Millimetre, Point, Speed, Workspace};
 use thiserror::Error;
@@ -20,7 +20,7 @@ pub(super) struct XarmOptions {
     pub(super) workspace: Option<Workspace>,
 }
 
-/// Arguments that are valid one by one but inconsistent.
+/// Error for an argument that the declaration accepts but that is invalid.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(super) enum OptionsError {
     #[error("`workspace`: `{}`, expected six numbers in mm with commas, smallest x, y, z and then largest: `200,-100,150,400,100,350`", shown(.text))]
@@ -51,7 +51,7 @@ impl XarmOptions {
     }
 }
 
-/// Parses the box between two corners; `None` if the text is invalid.
+/// Parses the workspace `x,y,z,x,y,z` in mm: smallest corner, then largest. Returns `None` if the text is invalid.
 fn workspace(text: &str) -> Option<Workspace> {
     let numbers: Option<Vec<f64>> = text
         .split(',')

@@ -1,4 +1,4 @@
-//! Decoder of the controller's unsolicited reports. No I/O.
+//! Decoder of the reports that the controller sends without a request. No I/O.
 
 use taceva_core::{Degree, Millimetre, Point, Pose, Rotation};
 use thiserror::Error;
@@ -8,9 +8,9 @@ use super::command::floats;
 /// Kind of report, one for each report port.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ReportKind {
-    /// State and pose, 100 per second.
+    /// State and pose of the arm, 100 reports per second.
     Pose,
-    /// State, pose, errors and joints, a few per second.
+    /// State, pose, errors and joints of the arm, a few reports per second.
     Status,
 }
 
@@ -20,23 +20,23 @@ pub(super) struct ArmReport {
     pub(super) state: State,
     /// Motion mode; 0 for queued positions.
     pub(super) mode: u8,
-    /// Number of queued and running motions.
+    /// Number of motions that are queued or running.
     pub(super) queued: u16,
-    /// x, y, z in mm, roll, pitch, yaw in rad, in the base frame; may contain NaN.
+    /// Pose of the tip in the base frame: x, y, z in mm; roll, pitch, yaw in rad; may contain NaN.
     pub(super) pose: [f32; 6],
-    /// Status; `None` except in reports of [`ReportKind::Status`].
+    /// Error code and motor states; `None` except in reports of [`ReportKind::Status`].
     pub(super) status: Option<ArmStatus>,
 }
 
 /// Fields that only reports of [`ReportKind::Status`] have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ArmStatus {
-    /// One bit per joint whose motor is on.
+    /// Bit mask of the joints whose motors are on.
     pub(super) enabled: u8,
     pub(super) error: u8,
 }
 
-/// State of the arm.
+/// State number that the controller reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct State(pub(super) u8);
 
@@ -44,17 +44,17 @@ impl State {
     pub(super) const MOVING: State = State(1);
     pub(super) const SLOWING_DOWN: State = State(6);
 
-    /// True if the arm is ready for the next motion.
+    /// True if the controller is ready for the next motion.
     pub(super) fn is_ready(self) -> bool {
         matches!(self.0, 0 | 2)
     }
 
-    /// True if the arm is neither moving nor ready: it is paused, stopped, slowing down or waiting to be made ready, or its state is unknown.
+    /// True if the arm is neither moving nor ready, or if its state is unknown. The arm may be paused, stopped or slowing down.
     pub(super) fn is_stopped(self) -> bool {
         self != State::MOVING && !self.is_ready()
     }
 
-    /// Name of the state in messages.
+    /// Name of the state in error messages.
     pub(super) fn name(self) -> &'static str {
         match self.0 {
             0 | 2 => "ready",
@@ -68,7 +68,7 @@ impl State {
     }
 }
 
-/// Invalid report: the stream has lost synchronisation.
+/// Error for an invalid report: the stream has lost synchronisation.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(super) enum ReportError {
     #[error("a report of {found} bytes, expected {least} to {LENGTH_MAX}")]
@@ -79,7 +79,7 @@ pub(super) enum ReportError {
 
 /// Maximum length of a report, bytes. Reports of newer firmware have more fields but are far shorter.
 const LENGTH_MAX: usize = 4096;
-/// Offset of the state in a report, bytes. Other fields follow below.
+/// Offset of the state in a report, bytes. The next constants are the offsets of other fields.
 const STATE: usize = 4;
 const QUEUED: usize = 5;
 const POSE: usize = 35;
@@ -87,7 +87,7 @@ const ENABLED: usize = 88;
 const ERROR: usize = 89;
 
 impl ReportKind {
-    /// Minimum length of a report, up to the last used field, bytes.
+    /// Minimum length of a report, bytes: up to the last field that this driver reads.
     fn least(self) -> usize {
         match self {
             ReportKind::Pose => POSE + 24,
@@ -158,7 +158,7 @@ impl Reports {
     }
 }
 
-/// Converts six numbers of the controller, in mm and rad, to a pose on the grid of all poses.
+/// Converts the controller's six numbers, in mm and rad, to a pose in mm and degrees, rounded to 10⁻⁶ mm and 10⁻⁹ degrees.
 pub(super) fn pose_of(numbers: [f32; 6]) -> Pose {
     let [x, y, z, roll, pitch, yaw] = numbers.map(f64::from);
     let pose = Pose {
@@ -176,7 +176,7 @@ pub(super) fn pose_of(numbers: [f32; 6]) -> Pose {
     pose.on_grid()
 }
 
-/// Converts a pose to the controller's six numbers, in mm and rad, with a resolution of 0.03 µm at 300 mm.
+/// Converts a pose to the controller's six numbers, in mm and rad. Single precision resolves 0.03 µm at 300 mm.
 pub(super) fn numbers_of(pose: &Pose) -> [f32; 6] {
     let Pose { position, rotation } = pose;
     let numbers = [
@@ -199,7 +199,7 @@ pub(super) fn numbers_of(pose: &Pose) -> [f32; 6] {
 mod tests {
     use super::*;
 
-    /// Report of `length` bytes with a pose of (300, 0, 300, π, 0, 0), in the layout of the public client.
+    /// Report of `length` bytes with the pose (300 mm, 0, 300 mm, π rad, 0, 0), in the layout of the public client.
     fn report(length: usize, state_and_mode: u8) -> Vec<u8> {
         let mut bytes = vec![0; length];
         bytes[..4].copy_from_slice(&u32::try_from(length).expect("small").to_be_bytes());

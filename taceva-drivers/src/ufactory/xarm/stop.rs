@@ -12,16 +12,16 @@ use super::command::{Command, TargetState};
 use super::exchange::{Exchange, ExchangeError, UNANSWERED, Writer};
 use super::firmware::Firmware;
 
-/// Timeout for the confirmation of a stop. Afterwards the stop is also sent over the other connection.
+/// Timeout for the confirmation of a stop. Afterwards the stop is also sent over the connection for motions.
 const CONFIRMATION: Duration = Duration::from_millis(40);
-/// Test interval of the connection while idle.
+/// Interval between tests of a stop connection that answers.
 const TRIAL_EVERY: Duration = Duration::from_millis(500);
-/// Test interval of a connection that does not answer. The arm does not move until the connection answers.
+/// Interval between tests of a stop connection that does not answer. No motion begins until the connection answers.
 const RETRIAL_EVERY: Duration = Duration::from_millis(50);
 const TRIAL_PATIENCE: Duration = Duration::from_millis(20);
-/// Time after which unanswered commands on an abandoned connection count as lost. A run retries to end a halt for longer than this.
+/// Time after which an unanswered stop on an abandoned connection counts as lost. A run tries for longer than this to end a halt.
 const LOST_AFTER: Duration = Duration::from_secs(2);
-/// Polling interval for an answer of the connection.
+/// Polling interval while a motion waits for the stop connection.
 const GLANCE: Duration = Duration::from_millis(5);
 
 /// Halt of one arm, shared by the robot, its handles and the thread that monitors the connection.
@@ -30,21 +30,21 @@ pub(super) struct Stop {
     is_halted: AtomicBool,
     /// True after the robot is dropped. A halt then does nothing.
     is_gone: AtomicBool,
-    /// True if the connection answered its last test.
+    /// True if the stop connection answered its last test.
     is_alive: AtomicBool,
     line: Mutex<Exchange>,
-    /// Abandoned connections on which a stop may be pending.
+    /// Abandoned stop connections, whose last stop may still be pending.
     given_up: Mutex<Vec<GivenUp>>,
     /// Writing half of the stop connection, for use while another caller waits for an answer.
     writer: Mutex<Writer>,
-    /// Connection for motions, used if the stop connection fails.
+    /// Writing half of the connection for motions, used if the stop connection fails.
     spare: Writer,
     place: Place,
-    /// Wakes the monitoring thread to end it.
+    /// Signal that ends the monitoring thread while it sleeps.
     bell: (Mutex<()>, Condvar),
 }
 
-/// Connection that did not answer and was replaced.
+/// Stop connection that did not answer and was replaced.
 #[derive(Debug)]
 struct GivenUp {
     line: Exchange,
@@ -74,7 +74,7 @@ impl Stop {
         self.is_alive.load(Ordering::Acquire)
     }
 
-    /// Waits up to `patience` for the stop connection to answer. Returns early if the arm is halted.
+    /// Waits up to `patience` until the stop connection answers, and returns true if it does. Returns early if the arm is halted.
     pub(super) fn is_alive_within(&self, patience: Duration) -> bool {
         let began = Instant::now();
         while !self.is_alive() && !self.is_halted() && began.elapsed() < patience {
@@ -83,8 +83,8 @@ impl Stop {
         self.is_alive()
     }
 
-    /// Waits until the controller has executed every stop that was sent. The controller processes each connection independently, so a late stop could end a
-    /// motion after the halt.
+    /// Waits until the controller has executed every stop that was sent. The controller processes each connection independently, so a late stop could
+    /// end a motion that begins after the halt.
     ///
     /// # Errors
     /// [`ExchangeError::Silent`] without an answer within `patience`. Then no motion may begin.
@@ -105,7 +105,7 @@ impl Stop {
         Ok(())
     }
 
-    /// Sends the command to stop and to clear the queue, over the stop connection or the connection for motions.
+    /// Sends the command to stop and to clear the queue. If the stop connection is busy or silent, also uses the connection for motions.
     pub(super) fn stop(&self) -> Result<(), ExchangeError> {
         let command = Command::SetState(TargetState::Stopped);
         let unanswered = |writer: &Writer| writer.send(command, self.place.firmware, UNANSWERED);
@@ -186,7 +186,7 @@ impl Halt for Stop {
     }
 }
 
-/// Thread that monitors the stop connection. It ends with the robot.
+/// Thread that monitors the stop connection. The thread ends when the robot is dropped.
 #[derive(Debug)]
 pub(super) struct Keeper {
     stop: Arc<Stop>,

@@ -12,7 +12,7 @@ use super::report::{ArmReport, ReportKind, Reports};
 use crate::link::mailbox::{Ending, NoNews};
 use crate::link::{LinkError, Mailbox, Seen, connect, monotonic};
 
-/// Reports of one port.
+/// Connection that receives the reports of one port.
 #[derive(Debug)]
 pub(super) struct Watch {
     reports: Arc<Mailbox<ArmReport>>,
@@ -42,12 +42,12 @@ impl Watch {
         })
     }
 
-    /// Mailbox of the reports.
+    /// Mailbox that contains the newest report.
     pub(super) fn mailbox(&self) -> Arc<Mailbox<ArmReport>> {
         Arc::clone(&self.reports)
     }
 
-    /// Newest report; `None` before the first report and after the end.
+    /// Newest report; `None` before the first report and after the end of the connection.
     pub(super) fn newest(&self) -> Option<Seen<ArmReport>> {
         self.reports.newest()
     }
@@ -55,7 +55,7 @@ impl Watch {
     /// Waits up to `patience` for a report newer than number `after`.
     ///
     /// # Errors
-    /// [`NoNews`] on a timeout, an interrupt, or the end.
+    /// [`NoNews`] after a timeout, an interrupt, or the end of the connection.
     pub(super) fn next(&self, after: u64, patience: Duration) -> Result<Seen<ArmReport>, NoNews> {
         self.reports.next(after, patience)
     }
@@ -71,7 +71,7 @@ impl Drop for Watch {
     }
 }
 
-/// Posts every report until the connection ends, and returns the reason.
+/// Posts reports to `posting` until the connection ends. Returns the reason for the end.
 fn read(
     mut stream: TcpStream,
     address: SocketAddr,

@@ -1,4 +1,4 @@
-//! Robot that is an arm of Universal Robots.
+//! Robot implementation for an arm of Universal Robots.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -61,7 +61,8 @@ struct Sent {
 }
 
 impl Sent {
-    /// State before the first stop. The first number depends on the time, because the controller may still report a number from an earlier connection.
+    /// Value before the first stop. The first number depends on the time, because the controller may still report the number of an earlier
+    /// connection.
     fn none() -> Sent {
         let number = monotonic().as_millis() & 0x3fff_ffff;
         Sent {
@@ -71,7 +72,7 @@ impl Sent {
     }
 }
 
-/// Time after which an unreported stop counts as lost.
+/// Time after which a stop that the controller has not reported counts as lost.
 const LOST_AFTER: Duration = Duration::from_secs(2);
 
 impl Stop {
@@ -83,7 +84,7 @@ impl Stop {
         self.line.is_alive()
     }
 
-    /// Stop program for the connection for motions, which keeps the order of programs.
+    /// Stop program for the connection for motions, where it arrives after every earlier program.
     pub(super) fn program(&self) -> String {
         stop(self.deceleration_m_s2)
     }
@@ -97,7 +98,8 @@ impl Stop {
         self.line.send(&program)
     }
 
-    /// True if `number`, as reported, shows that the last stop was executed, or if that stop counts as lost. Otherwise a late stop could end a later motion.
+    /// True if no stop is pending: the last stop has the number that the controller reports as `number`, or it counts as lost. A pending
+    /// stop could end a later motion.
     pub(super) fn is_obeyed(&self, number: i32) -> bool {
         let sent = self.sent();
         sent.number == number
@@ -122,7 +124,7 @@ impl Halt for Stop {
     }
 }
 
-/// Creates an error with a reason.
+/// Creates an error of this driver that occurred while `doing`, with the reason `why`.
 pub(super) fn failed(
     kind: ErrorKind,
     doing: &'static str,
@@ -131,14 +133,14 @@ pub(super) fn failed(
     DriverError::new(kind, &KEY, doing).because(why)
 }
 
-/// Timeout for the first state.
+/// Longest wait for the state that the warnings need.
 const FIRST: Duration = Duration::from_secs(2);
 /// Maximum age of a state that counts as current.
 const FRESH: Duration = Duration::from_millis(50);
 pub(super) const M_A_MM: f64 = 1e-3;
 
 impl Arm {
-    /// Connects to an arm. Nothing moves and no state changes.
+    /// Connects to an arm without moving it or changing its state.
     pub(super) fn open(options: UrOptions) -> Result<Arm, DriverError> {
         let doing = "connect to the arm";
         let UrOptions {
@@ -164,7 +166,7 @@ impl Arm {
         })
     }
 
-    /// Checks that a motion to `target` is within the limits.
+    /// Checks that `target` is finite and that `speed` is within the limit of the options.
     pub(super) fn admit(&self, target: &Pose, speed: Speed) -> Result<(), DriverError> {
         let doing = "move the arm";
         check_pose(target).map_err(|error| failed(ErrorKind::InvalidArgument, doing, error))?;
@@ -176,7 +178,7 @@ impl Arm {
         Ok(())
     }
 
-    /// Waits for a state with a number above `after`. Without `after`, returns the newest state if it is at most [`FRESH`] old.
+    /// Waits for a state with a number above `after`. Without `after`, also accepts the newest state if it is at most [`FRESH`] old.
     pub(super) fn look(
         &self,
         after: Option<u64>,
@@ -198,7 +200,7 @@ impl Arm {
     }
 }
 
-/// Pose of a state. Fails for values that are not finite.
+/// Pose of a state. Fails if a number is not finite.
 pub(super) fn numbered_pose(state: &ArmState, doing: &'static str) -> Result<Pose, DriverError> {
     pose_of(state.pose).ok_or_else(|| {
         let why = format!("a pose of {:?}, expected finite numbers", state.pose);
@@ -206,7 +208,7 @@ pub(super) fn numbered_pose(state: &ArmState, doing: &'static str) -> Result<Pos
     })
 }
 
-/// Pose of a state. Fails if the arm stopped by itself.
+/// Pose of a state. Fails after a safety stop or a fault of the arm, or if a number is not finite.
 fn watched_pose(state: &ArmState) -> Result<Pose, DriverError> {
     match ArmFault::of(state).filter(|fault| fault.kind().is_some()) {
         Some(fault) => Err(fault.met(LOOK)),

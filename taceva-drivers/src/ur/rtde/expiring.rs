@@ -1,4 +1,4 @@
-//! Motion by programs that expire. The controller brakes if programs are no longer renewed.
+//! Motion by programs that expire. The arm brakes unless the driver sends the next program in time.
 
 use std::time::Duration;
 
@@ -35,7 +35,7 @@ impl ExpiringMotion for Arm {
 }
 
 impl Arm {
-    /// Follows `course` almost to its end. The arm still moves when this function returns.
+    /// Follows `course` almost to its end, and returns the last state. The arm still moves then.
     fn cruise(
         &mut self,
         course: &Course,

@@ -18,21 +18,20 @@ submit_builtin!(dyn Robot, || Ok(Box::new(UrFactory::new()?)));
 /// - Poses are of the tool in the **base frame** of the arm, in mm and degrees (about x, y and z in turn).
 /// - Opening connects and changes nothing. The arm must be switched on, with open brakes, in remote control and without a safety stop. A
 ///   person does that at the teach pendant; this driver never does.
-/// - A move is a program with one `movel`. It ends once no program runs and the reported pose is within 0.05 mm of the target.
-/// - An expiring move is a program with one `speedl` that lasts 0.2 s and then brakes, renewed every 50 ms. The last 0.1 s of the path is a
-///   `movel`. A short move, or a move with rotation of the tool, is a single `movel`.
-/// - A halt sends a program with one `stopl` over a separate connection, which replaces the running program; the controller does not confirm
-///   that a program arrived.
-///   Without that connection no move begins.
+/// - A move is a program with one `movel`. The move ends once no program runs and the reported pose is within 0.05 mm of the target.
+/// - An expiring move is a program with one `speedl` that lasts 0.2 s and then brakes. The driver renews the program every 50 ms. The last 0.1 s of
+///   the path is a `movel`. A short move, or a move with rotation of the tool, is a single `movel`.
+/// - A halt sends a program with one `stopl` over a separate connection. The program replaces the running program. The controller does not confirm
+///   that a program arrived. No move begins without this connection.
 /// - Emergency, protective and safeguard stops end a move with `DeviceFault`.
 /// - A speed slider of the pendant below 100 % gives a warning, since every motion is then slower.
-/// - A controller without one of the seven outputs that the driver reads is refused; the error names the output and the version of the controller.
-/// - During a move, the states that the arm sends are watched; the states report emergency, protective and safeguard stops too.
+/// - The driver refuses a controller that lacks one of the seven required outputs. The error names the output and the version of the controller.
+/// - During a move, the driver watches the states that the arm sends. The states also report emergency, protective and safeguard stops.
 ///
 /// # Verification
-/// The driver passes its suite on an emulated controller, whose poses the public client `ur-rtde` 1.6.5 reads too. Only this driver has
-/// sent script to that controller. **Not verified without the device**: how soon a program begins and `stopl` ends a program, and bits of
-/// the safety status, which are from the documents. Also whether an arm keeps its speed if a `speedl` program of 0.2 s replaces another every 50 ms.
+/// The driver passes its tests on an emulated controller. The public client `ur-rtde` 1.6.5 reads poses from that controller too, but only this
+/// driver has sent programs to it. **Not verified without the device**: how soon a program begins, how soon `stopl` ends a program, and the
+/// documented bits of the safety status. Also whether an arm keeps its speed if a `speedl` program of 0.2 s replaces another every 50 ms.
 ///
 /// ```
 /// use taceva_core::Factory;

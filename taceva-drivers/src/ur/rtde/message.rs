@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::text::shown;
 
-/// Message types, by letter.
+/// Message type of the request for a protocol version. The next constants are the other types.
 pub(super) const VERSION: u8 = b'V';
 pub(super) const OUTPUTS: u8 = b'O';
 pub(super) const START: u8 = b'S';
@@ -12,13 +12,13 @@ pub(super) const CONTROLLER: u8 = b'v';
 const DATA: u8 = b'U';
 const TEXT: u8 = b'M';
 
-/// Protocol version.
+/// Version of the data exchange that this driver requests.
 const PROTOCOL: u16 = 2;
 /// Output that the driver requests from the controller.
 struct Output {
     name: &'static str,
     kind: &'static str,
-    /// First CB3 and e-Series versions with the output, by the documents; empty for all versions.
+    /// First controller versions with this output, for CB3 and e-Series, as documented. Empty if every version has it.
     since: &'static str,
 }
 
@@ -26,7 +26,7 @@ const fn output(name: &'static str, kind: &'static str, since: &'static str) -> 
     Output { name, kind, since }
 }
 
-/// Requested outputs, in this order. Stops write their number to the last output, the first register for external programs.
+/// Requested outputs, in the order of a data message. A stop program writes its number to the last output, an integer register.
 static ASKED: [Output; 7] = [
     output("timestamp", "DOUBLE", ""),
     output("actual_TCP_pose", "VECTOR6D", ""),
@@ -36,42 +36,42 @@ static ASKED: [Output; 7] = [
     output("target_speed_fraction", "DOUBLE", ""),
     output("output_int_register_24", "INT32", "3.9 and 5.3"),
 ];
-/// Type that the controller reports for an output that does not exist.
+/// Text that the controller sends instead of a type for an unknown output.
 const NOT_FOUND: &str = "NOT_FOUND";
-/// Number of the register for stops, in script.
+/// Integer register to which a stop program writes its number.
 pub(super) const STOP_REGISTER: u8 = 24;
-/// Size of a data message, bytes: recipe number and outputs.
+/// Size of a data message without its header, bytes: recipe number, then outputs.
 const DATA_LENGTH: usize = 1 + 8 + 48 + 4 + 4 + 4 + 8 + 4;
-/// Maximum length of an answer, bytes.
+/// Maximum length of a message, bytes.
 const LENGTH_MAX: usize = 4096;
-/// Size of the header, bytes: length and type.
+/// Size of a message header, bytes: length and type.
 const HEADER: usize = 3;
 
 /// State of an arm at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ArmState {
-    /// x, y, z in m and a rotation vector in rad, in the base frame; may contain NaN.
+    /// Pose of the tool in the base frame: x, y, z in m and a rotation vector in rad; may contain NaN.
     pub(super) pose: [f64; 6],
     pub(super) robot_mode: i32,
     pub(super) safety: u32,
     pub(super) runtime: u32,
-    /// Position of the speed slider, 0 to 1; may be NaN.
+    /// Position of the speed slider of the pendant, 0 to 1; may be NaN.
     pub(super) slider: f64,
     /// Number of the last stop that the controller began.
     pub(super) stop: i32,
 }
 
-/// Message of the controller.
+/// Message from the controller.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Message {
     /// Answer to the request with this message type; true if the request is accepted.
     Accepted(u8, bool),
-    /// Types of the requested outputs.
+    /// Types of the requested outputs, separated by commas.
     Types(String),
     /// Version of the controller: major, minor, bug fix, build; `None` if the controller does not state its version.
     Controller(Option<[u32; 4]>),
     State(ArmState),
-    /// Text for people.
+    /// Text for people, which the driver ignores.
     Text,
 }
 
@@ -87,7 +87,7 @@ impl Message {
     }
 }
 
-/// Invalid message: the stream has lost synchronisation.
+/// Error for an invalid message: the stream has lost synchronisation.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(super) enum MessageError {
     #[error("a message of {found} bytes, expected {HEADER} to {LENGTH_MAX}")]
@@ -98,12 +98,12 @@ pub(super) enum MessageError {
     Types { found: String },
 }
 
-/// Types of all requested outputs, with commas.
+/// Types of all requested outputs, separated by commas.
 fn kinds() -> String {
     joined(|output| output.kind)
 }
 
-/// Results of `word` for all requested outputs, with commas.
+/// Texts that `word` returns for the requested outputs, separated by commas.
 fn joined(word: fn(&Output) -> &'static str) -> String {
     let words: Vec<&str> = ASKED.iter().map(word).collect();
     words.join(",")
@@ -119,7 +119,7 @@ pub(super) fn ask_controller() -> Vec<u8> {
     message(CONTROLLER, &[])
 }
 
-/// Encodes the request for states at `rate_hz`.
+/// Encodes the request for the outputs, `rate_hz` times per second.
 pub(super) fn ask_outputs(rate_hz: f64) -> Vec<u8> {
     let names = joined(|output| output.name);
     message(
@@ -128,7 +128,7 @@ pub(super) fn ask_outputs(rate_hz: f64) -> Vec<u8> {
     )
 }
 
-/// Encodes the request to start.
+/// Encodes the request to start sending states.
 pub(super) fn ask_start() -> Vec<u8> {
     message(START, &[])
 }
@@ -138,7 +138,8 @@ fn message(kind: u8, says: &[u8]) -> Vec<u8> {
     [&length.to_be_bytes()[..], &[kind], says].concat()
 }
 
-/// Requested outputs that the controller lacks, each with the versions that have it. Empty if no output is missing.
+/// Requested outputs that the controller lacks, each with the first versions that have it. `found` is the answer of the controller: one type for each
+/// output.
 ///
 /// # Errors
 /// [`MessageError::Types`] if the other outputs do not have the expected types.
@@ -205,7 +206,7 @@ impl Messages {
     }
 }
 
-/// Four big-endian numbers; `None` for another length.
+/// Decodes a controller version of four big-endian numbers; `None` unless `says` has 16 bytes.
 fn version(says: &[u8]) -> Option<[u32; 4]> {
     let says = <[u8; 16]>::try_from(says).ok()?;
     let number = |at: usize| u32::from_be_bytes(std::array::from_fn(|byte| says[4 * at + byte]));
@@ -234,7 +235,7 @@ mod tests {
     use super::*;
     use crate::link::hexadecimal;
 
-    /// State of an arm at (0.3, 0, 0.25) m.
+    /// Data message of an arm at (0.3, 0, 0.25) m.
     fn data() -> Vec<u8> {
         let mut says = vec![1];
         for number in [12.5, 0.3, 0.0, 0.25, 0.0, 3.125, 0.0] {

@@ -1,4 +1,4 @@
-//! One straight motion, from the first state to rest.
+//! One straight motion of the tool, from the first state until the tool is at rest.
 
 use std::time::Duration;
 
@@ -12,21 +12,21 @@ use super::script::move_line;
 use crate::link::{Seen, monotonic};
 
 pub(super) const DOING: &str = "move the arm";
-/// Tolerance at the target, mm.
+/// Greatest distance from the target that counts as arrival, mm.
 const NEAR_MM: f64 = 0.05;
-/// Time without a state after which the arm is stopped.
+/// Longest time without a state before a moving arm is stopped.
 const STALE: Duration = Duration::from_millis(250);
-/// Time after which a program that does not run, with the arm at the target, counts as completed.
+/// Time from a command until an arm at the target counts as arrived, even if no state showed its program.
 const BEGUN: Duration = Duration::from_millis(100);
-/// Time after which a program that does not run, with the arm elsewhere, counts as never begun.
+/// Time from a command until an arm that runs no program away from the target counts as stopped there.
 const NEVER_BEGUN: Duration = Duration::from_millis(1_000);
-/// Time after the end of the program in which the arm may settle at its target.
+/// Time that the arm may take to reach its target after its program has ended.
 const SETTLED: Duration = Duration::from_millis(200);
-/// Time after which a started stop has ended.
+/// Time after which a stop counts as ended, from the first state that shows the stop.
 const BRAKED: Duration = Duration::from_millis(400);
-/// Time to wait until a stopped arm is at rest.
+/// Longest wait until a stopped arm is at rest.
 const STOPPING: Duration = Duration::from_millis(400);
-/// Runtime state without a program.
+/// Runtime state of a controller that runs no program.
 const STOPPED: u32 = 1;
 
 impl Arm {
@@ -68,7 +68,7 @@ impl Arm {
         Ok(first)
     }
 
-    /// Waits for the first state after all sent stops have ended or count as lost.
+    /// Waits until all stops that were sent have ended or count as lost. Returns the first state after that.
     fn after_every_stop(&self, until: Duration) -> Result<Seen<ArmState>, DriverError> {
         let left = || until.saturating_sub(monotonic());
         let mut seen = self.look(None, left())?;
@@ -96,7 +96,7 @@ impl Arm {
         }
     }
 
-    /// Ends a motion. Stops the arm if the motion is incomplete.
+    /// Returns the result `ended` of a motion. Stops the arm first if the result is an error.
     pub(super) fn end(&self, ended: Result<Stamp, DriverError>) -> Result<Stamp, DriverError> {
         if ended.is_err() {
             // Send the stop after the motion on the same connection, since a stop on the other may have overtaken it. If it cannot be sent,

@@ -1,8 +1,8 @@
-//! Conversion of poses to the controller's form: metres and a rotation vector, whose length is the angle in rad.
+//! Conversion between poses and the numbers of the controller: metres, and a rotation vector whose length is the angle in rad.
 
 use taceva_core::{Pose, SiPose};
 
-/// Converts six numbers of the controller to a pose; `None` if a number is not finite.
+/// Converts a position in m and a rotation vector in rad to a pose; `None` if a number is not finite.
 pub(super) fn pose_of([x, y, z, rx, ry, rz]: [f64; 6]) -> Option<Pose> {
     let angle = (rx * rx + ry * ry + rz * rz).sqrt();
     // Limit of sin(angle / 2) / angle for a vanishing angle.
@@ -18,7 +18,7 @@ pub(super) fn pose_of([x, y, z, rx, ry, rz]: [f64; 6]) -> Option<Pose> {
     si.to_pose()
 }
 
-/// Converts a pose to six numbers, in m and rad.
+/// Converts a pose to a position in m and a rotation vector in rad.
 pub(super) fn numbers_of(pose: Pose) -> [f64; 6] {
     let SiPose {
         position_m: [x, y, z],

@@ -18,13 +18,13 @@ pub(super) enum ArmFault {
     SafeguardStop,
     Violation,
     Fault,
-    /// The arm is off, or its brakes are closed.
+    /// Robot mode is not running: the arm is off, or its brakes are closed.
     NotRunning {
         mode: i32,
     },
 }
 
-/// Bits of the safety status.
+/// Bit of the safety status for a protective stop. The next constants are the other bits.
 const PROTECTIVE_STOPPED: u32 = 1 << 2;
 const SAFEGUARD_STOPPED: u32 = 1 << 4;
 const SYSTEM_EMERGENCY_STOPPED: u32 = 1 << 5;
@@ -32,11 +32,11 @@ const ROBOT_EMERGENCY_STOPPED: u32 = 1 << 6;
 const EMERGENCY_STOPPED: u32 = 1 << 7;
 const VIOLATION: u32 = 1 << 8;
 const FAULT: u32 = 1 << 9;
-/// Robot mode with power on and open brakes.
+/// Robot mode of an arm with power on and open brakes.
 const RUNNING: i32 = 7;
 
 impl ArmFault {
-    /// Kind of a fault that requires a person; `None` for other faults.
+    /// Kind of fault for a safety stop or a fault; `None` for [`ArmFault::NotRunning`].
     pub(super) fn kind(self) -> Option<Fault> {
         match self {
             ArmFault::EmergencyStop => Some(Fault::EmergencyStop),

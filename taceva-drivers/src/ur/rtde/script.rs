@@ -1,4 +1,4 @@
-//! Script programs, and the connection for sending them. Data from the controller is discarded.
+//! Script programs, and the connection that sends them. The connection discards everything that the controller sends.
 
 use std::io::{self, Read, Write};
 use std::net::{Shutdown, SocketAddr, TcpStream};
@@ -11,7 +11,7 @@ use std::time::Duration;
 use super::message::STOP_REGISTER;
 use crate::link::{LinkError, connect};
 
-/// Program that moves in a straight line to a pose in m and rad, at m/s and m/s².
+/// Program that moves the tool in a straight line to `pose`: position in m, rotation vector in rad.
 pub(super) fn move_line(pose: [f64; 6], speed_m_s: f64, acceleration_m_s2: f64) -> String {
     let [x, y, z, rx, ry, rz] = pose;
     format!(
@@ -19,7 +19,7 @@ pub(super) fn move_line(pose: [f64; 6], speed_m_s: f64, acceleration_m_s2: f64) 
     )
 }
 
-/// Program that moves at a velocity in m/s for `lasts_s`, then brakes. Accelerations in m/s².
+/// Program that moves the tool at the velocity (x, y, z), m/s, for `lasts_s`, then brakes.
 pub(super) fn cruise(
     [x, y, z]: [f64; 3],
     lasts_s: f64,
@@ -35,14 +35,14 @@ pub(super) fn stop(deceleration_m_s2: f64) -> String {
     format!("def taceva_stop():\n  stopl({deceleration_m_s2:.6})\nend\n")
 }
 
-/// Same as [`stop`], but the program first writes `number` to a register.
+/// Same as [`stop`], but the program first writes `number` to the register [`STOP_REGISTER`].
 pub(super) fn numbered_stop(number: i32, deceleration_m_s2: f64) -> String {
     format!(
         "def taceva_stop():\n  write_output_integer_register({STOP_REGISTER}, {number})\n  stopl({deceleration_m_s2:.6})\nend\n"
     )
 }
 
-/// Connection that accepts script.
+/// Connection to the port that accepts script programs.
 #[derive(Debug)]
 pub(super) struct ScriptLine {
     stream: Mutex<TcpStream>,
@@ -85,7 +85,7 @@ impl ScriptLine {
         !self.is_over.load(Ordering::Acquire)
     }
 
-    /// Sends a program. The controller does not confirm a program.
+    /// Sends a program. The controller does not confirm its arrival.
     pub(super) fn send(&self, program: &str) -> Result<(), LinkError> {
         let address = self.address;
         if !self.is_alive() {

@@ -16,7 +16,7 @@ use super::message::{
 use crate::link::mailbox::Ending;
 use crate::link::{LinkError, Mailbox, connect, monotonic};
 
-/// States of one arm.
+/// Connection that receives the states of one arm.
 #[derive(Debug)]
 pub(super) struct States {
     states: Arc<Mailbox<ArmState>>,
@@ -26,7 +26,7 @@ pub(super) struct States {
     reader: Option<JoinHandle<()>>,
 }
 
-/// Failure to receive states.
+/// Reason why no states are received.
 #[derive(Debug, Error)]
 pub(super) enum StatesError {
     #[error(transparent)]
@@ -49,7 +49,7 @@ pub(super) enum StatesError {
 }
 
 impl StatesError {
-    /// Kind of the failure.
+    /// Kind of the `DriverError` that this failure causes.
     pub(super) fn kind(&self) -> ErrorKind {
         match self {
             StatesError::Link(error) => error.kind(),
@@ -119,7 +119,7 @@ impl States {
         &self.version
     }
 
-    /// Mailbox of the states.
+    /// Mailbox that contains the newest state.
     pub(super) fn mailbox(&self) -> &Arc<Mailbox<ArmState>> {
         &self.states
     }
@@ -135,7 +135,7 @@ impl Drop for States {
     }
 }
 
-/// Version for error messages, also if unknown.
+/// Version as error messages name it, or a phrase for an empty `version`.
 fn named(version: &str) -> &str {
     match version {
         "" => "of an unknown version",
@@ -143,7 +143,7 @@ fn named(version: &str) -> &str {
     }
 }
 
-/// Waits for the answer that accepts the request of type `kind`.
+/// Waits for the answer to the request of type `kind`. Fails if the controller refuses the request.
 fn await_answer(
     stream: &mut TcpStream,
     address: SocketAddr,
@@ -175,7 +175,7 @@ fn await_answer(
     }
 }
 
-/// Posts every state until the connection ends, and returns the reason.
+/// Posts states to `posting` until the connection ends. Returns the reason for the end.
 fn read(
     mut stream: TcpStream,
     address: SocketAddr,
