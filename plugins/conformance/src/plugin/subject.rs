@@ -1,4 +1,4 @@
-//! Subject of a check: a loaded plugin and one of its drivers.
+//! Subject of a check: a loaded plugin, and one of its drivers or estimators.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -23,7 +23,7 @@ pub(super) const AT_ONCE: Duration = Duration::from_millis(50);
 /// Time limit of calls that should return at once, also on a busy machine.
 pub(super) const SOON: Duration = Duration::from_millis(500);
 
-/// Maximum number of openings of a real device in one check.
+/// Greatest number of times that one check opens a real device.
 const REAL_OPENINGS: usize = 3;
 
 /// A loaded plugin, and one of its drivers or estimators.
