@@ -7,7 +7,7 @@ use crate::report::Report;
 use crate::stream::{self, Stream, as_declared, started};
 use crate::trial::{Promise, Trial, Tried, report};
 
-/// Tests the promises of a force transducer with the settings of `trial`. Nothing may touch the transducer.
+/// Tests the promises of a force transducer with the settings of `trial`. Nothing may touch the transducer during the test.
 pub fn force(factory: &dyn Factory<dyn ForceTransducer>, trial: &Trial) -> Report {
     report(factory, trial, PROMISES)
 }

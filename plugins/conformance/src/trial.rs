@@ -30,8 +30,7 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// Creates a trial with `arguments` and these limits: 1 s for calls that should succeed, 0.5 s for calls that should return at once, 0.5 mm of
-    /// travel.
+    /// Creates a trial with `arguments`. Calls that should succeed have 1 s, calls that should return at once have 0.5 s. A robot travels 0.5 mm.
     pub fn with_arguments(arguments: impl Into<String>) -> Trial {
         Trial {
             arguments: arguments.into(),

@@ -67,7 +67,7 @@ unsafe extern "C" fn interrupt<O: Any + Send>(handle: *mut c_void) {
     }));
 }
 
-/// Runs `work` with exclusive access to the device of type `O` with the number `handle`.
+/// Runs `work` with exclusive access to the open device, of type `O`, that has this `handle`.
 ///
 /// # Safety
 /// `error` is valid, as for [`guard`].

@@ -82,8 +82,8 @@ impl Provenance {
 }
 
 impl Provenance {
-    /// Kind of group that the split keeps in one part and that intervals leave out one by one: the column `object`, or `block of time`. `None` for
-    /// other splits.
+    /// Kind of group that the split keeps in one part: a column such as `object`, or `block of time`. Intervals leave out these groups one by one.
+    /// `None` for other splits.
     ///
     /// ```
     /// use taceva_results::Provenance;

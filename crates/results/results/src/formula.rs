@@ -24,7 +24,7 @@ pub fn unescape_csv(cell: &str) -> &str {
     }
 }
 
-/// True if the text, after leading apostrophes, begins with a sign of a formula such as `=` or `＝`, or with a tab or line break.
+/// True if the text, without leading apostrophes, begins with a sign such as `=` or `＝`, a tab or a line break.
 fn begins_like_a_formula(text: &str) -> bool {
     text.trim_start_matches('\'')
         .starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '＝', '＋', '－', '＠'])

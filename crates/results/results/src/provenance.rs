@@ -170,7 +170,7 @@ pub struct ModelProvenance {
     /// Setting that the fit chose, and the method: `strength with each training sample left out in turn`; `None` without a choice.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chosen_by: Option<String>,
-    /// `given` if the caller passed only the predictions of the model; `None` for a model of TacEva.
+    /// `given` if the caller passed only the predictions of the model; otherwise `None`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub origin: Option<String>,
 }

@@ -97,7 +97,7 @@ impl Samples {
     pub const GROUP: &'static str = "group";
     /// Name of the column with fold numbers, from 1. Each fold is predicted by a model that was fitted without this fold.
     pub const FOLD: &'static str = "fold";
-    /// Name of the column with a standard uncertainty, in mm: of the zero height from which the depth of a sample is measured.
+    /// Name of the column with the standard uncertainty of the zero height, in mm. The depth of a sample is measured from this height.
     pub const ZERO_U: &'static str = "zero_u_mm";
     /// Suffix of the columns with predictions.
     pub const PREDICTED: &'static str = "_predicted";
@@ -123,7 +123,7 @@ impl Samples {
         self
     }
 
-    /// Replaces the folders of the recordings.
+    /// Replaces the folders of the recordings with `recordings`.
     #[must_use]
     pub fn with_recordings(self, recordings: Vec<PathBuf>) -> Samples {
         Samples { recordings, ..self }
@@ -135,7 +135,7 @@ impl Samples {
             .push((name.to_owned(), SampleColumn::Words(words)));
     }
 
-    /// Adds the column `protocol` after `sample`: names of the protocol parts to which a sample belongs, separated by spaces.
+    /// Adds the column `protocol` after `sample`. Each cell names the protocol parts of a sample, separated by spaces.
     pub fn insert_protocol(&mut self, parts: Vec<Option<String>>) {
         let column = ("protocol".to_owned(), SampleColumn::Words(parts));
         self.columns.insert(1.min(self.columns.len()), column);
@@ -160,8 +160,7 @@ impl Samples {
         self.push_numbers(&format!("{}{UNBOUNDED}", channel.name()), numbers);
     }
 
-    /// Reads a CSV table with a header: `sample` (or `id`), covariates, and for each channel its truth under its name and its prediction under
-    /// `<name>_predicted`.
+    /// Reads a CSV table with a header. The columns are `sample` (or `id`), covariates, and for each channel `<name>` (truth) and `<name>_predicted`.
     ///
     /// ```
     /// use taceva_results::Samples;

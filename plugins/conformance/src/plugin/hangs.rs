@@ -28,7 +28,8 @@ struct Hang {
 }
 
 impl Hangs {
-    /// Runs the check `name` on `probe`. After an earlier hang, the first attempt has a shorter time limit, because most checks make the same calls.
+    /// Runs the check `name` on `probe`. After a hang, the first attempt of a check without motions has a shorter time limit, because most checks
+    /// make the same calls.
     pub(super) fn check(
         &mut self,
         examination: &Examination<'_>,

@@ -26,8 +26,8 @@ const NAMES: [&str; 11] = [
     "estimator/predicts-in-threads",
 ];
 
-/// Time of each check that passed in a shared process, s, by subject and name: the time of the process divided by its number of checks. Checks that
-/// are missing here run separately, because a failure hides the results of the other checks.
+/// Time of each check that passed in a shared process, s, by subject and name. The time of the process is divided evenly among its checks. Checks
+/// that are missing here run separately, because a failure hides the results of the other checks.
 pub(super) type HeldTogether<'a> = BTreeMap<(Option<&'a DriverKey>, &'static str), f64>;
 
 /// Runs the checks of `wanted` that can share a process, in one process per subject. Calls `begin` with the names of these checks.
