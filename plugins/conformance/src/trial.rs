@@ -96,7 +96,7 @@ pub(crate) fn report<D: ?Sized>(
 }
 
 impl<'a, D: ?Sized> Tried<'a, D> {
-    /// Driver of `factory`, described for the arguments of `trial`.
+    /// Prepares the test of the driver of `factory`: parses the arguments of `trial` and describes the driver.
     pub(crate) fn new(factory: &'a dyn Factory<D>, trial: &'a Trial) -> Result<Self, Unmet> {
         let of_trial = factory.descriptor();
         let args = of_trial.args(&trial.arguments);

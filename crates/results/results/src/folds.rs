@@ -5,7 +5,7 @@ use taceva_core::counted;
 use crate::provenance::Provenance;
 
 impl Provenance {
-    /// Description of the cross-validation behind the scores. `None` if one model was fitted, and tested on other samples.
+    /// Description of the cross-validation that gave the scores. `None` if one model was fitted, and tested on other samples.
     ///
     /// ```
     /// use taceva_results::Provenance;
@@ -68,7 +68,7 @@ impl Provenance {
         ))
     }
 
-    /// Number of models of the [cross-validation](Provenance::cross_validation). `None` if the provenance does not state the number.
+    /// Number of models that the [cross-validation](Provenance::cross_validation) fitted. `None` if the provenance does not state the number.
     pub fn fold_models(&self) -> Option<usize> {
         self.cross_validation()?;
         let split = self.split.as_deref()?;

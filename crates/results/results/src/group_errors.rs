@@ -22,7 +22,7 @@ pub struct GroupErrors {
 /// Mean absolute error of one channel over the samples of one group.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GroupError {
-    /// Channel: `Fz`.
+    /// Name of the channel: `Fz`.
     pub channel: String,
     /// Symbol of the unit of the error.
     pub unit: String,

@@ -156,7 +156,7 @@ impl Provenance {
     }
 }
 
-/// Model behind a result.
+/// Model whose predictions were scored.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModelProvenance {
     /// Name of the model: `ridge`.
@@ -175,7 +175,7 @@ pub struct ModelProvenance {
     pub origin: Option<String>,
 }
 
-/// One of several recordings behind a result.
+/// One of several recordings whose samples were joined for a result.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RecordingProvenance {
     /// Prefix of the names of the samples and contact points in the recording.

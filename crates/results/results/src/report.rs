@@ -53,7 +53,7 @@ pub struct EvaluationReport {
 /// Scores from the samples of one of several recordings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RecordingScores {
-    /// Name of the recording in the provenance.
+    /// Name of the recording, as in the provenance.
     pub recording: String,
     /// Digest of the recording.
     pub digest: String,

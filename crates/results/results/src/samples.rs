@@ -102,7 +102,7 @@ impl Samples {
     /// Suffix of the columns with predictions.
     pub const PREDICTED: &'static str = "_predicted";
 
-    /// Samples called `ids`, from the recordings in these folders.
+    /// Creates a table with the names `ids` of samples, from recordings in the folders `recordings`.
     pub fn new(ids: Vec<Option<String>>, recordings: Vec<PathBuf>) -> Samples {
         Samples {
             rows: ids.len(),

@@ -15,9 +15,9 @@ use crate::value::Value;
 /// Score of a metric on a channel or plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Score {
-    /// Metric: `mae`.
+    /// Name of the metric: `mae`.
     pub metric: String,
-    /// Channel or plane: `Fz`, `Pxy`.
+    /// Name of the channel or plane: `Fz`, `Pxy`.
     pub channel: String,
     /// Value of the score, in `unit`.
     pub value: Value,
@@ -47,7 +47,7 @@ pub struct Score {
     pub variants: Vec<Variant>,
 }
 
-/// Further value of the same metric and channel.
+/// Further value of a score, such as the slope of a fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variant {
     /// Name of the variant: `slope`, `map`.

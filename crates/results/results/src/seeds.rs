@@ -13,7 +13,7 @@ pub struct OverSeeds {
     pub seeds: Vec<u64>,
     /// Steps of the training that depend on the seed, in words.
     pub decides: String,
-    /// Scores that use predictions.
+    /// Values over the seeds, one entry per score that uses predictions.
     pub scores: Vec<SeedScore>,
 }
 
@@ -24,7 +24,7 @@ pub struct SeedScore {
     pub metric: String,
     /// Channel or plane.
     pub channel: String,
-    /// Unit of all numbers.
+    /// Unit of the values, the mean, the standard deviation and the interval.
     pub unit: Unit,
     /// Value for each seed, in the order of the seeds; `None` for an absent value.
     pub values: Vec<Option<f64>>,

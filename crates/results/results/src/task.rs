@@ -19,7 +19,7 @@ use serde_json::Value;
 #[serde(transparent)]
 pub struct StudyTask(Value);
 
-/// A score of a task without a variant.
+/// Score of a task, as opposed to a variant of a score.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TaskNumber<'a> {
     /// Name of the metric.
@@ -28,7 +28,7 @@ pub struct TaskNumber<'a> {
     pub unit: &'a str,
     /// The score; `None` if it is undefined.
     pub value: Option<f64>,
-    /// 95 % interval by cluster, if there is an interval.
+    /// Interval at 95 % by cluster; `None` without an interval.
     pub interval: Option<[f64; 2]>,
     /// Score of the best constant prediction; `None` if the metric has no such score.
     pub of_constant: Option<f64>,

@@ -15,7 +15,7 @@ use taceva_host::Session;
 use taceva_host::bare::Source;
 use taceva_host::bare::pending_call;
 
-/// Prefix of the answer of a skipped check.
+/// Prefix of the reason that a child reports for a skipped check.
 pub(super) const SKIPPED: &str = "skipped: ";
 /// Name of the pending call while a check is outside plugin calls.
 pub(super) const WHOLE: &str = "end the check";

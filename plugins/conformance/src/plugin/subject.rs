@@ -109,7 +109,7 @@ impl Subject {
         self.opened(open(&rig, self.entry()?, &self.list()?))
     }
 
-    /// Opened device, or the reason for the failure.
+    /// Returns the opened device, or the reason why it did not open.
     pub(super) fn opened<T>(&self, opened: Result<T, DriverError>) -> Result<T, Unmet> {
         opened.map_err(|error| self.not_opened(error))
     }
@@ -182,7 +182,7 @@ impl Subject {
     }
 }
 
-/// Opens a device of a session.
+/// Function that opens a device in a session.
 pub(super) type OpenIn<D> = fn(&InProcess, &DriverKey, &Args) -> Result<Box<D>, DriverError>;
 
 /// Factory of a driver of the checked library.

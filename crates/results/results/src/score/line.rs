@@ -43,7 +43,7 @@ pub struct ScoreLine<'a> {
     pub interval: Option<&'a Interval>,
     /// Score to which the number belongs.
     pub score: &'a Score,
-    /// True for the score itself, false for one of its variants.
+    /// True for the value of the score itself, false for one of its variants.
     pub is_headline: bool,
 }
 
