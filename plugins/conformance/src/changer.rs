@@ -1,4 +1,4 @@
-//! Promises of changers: guarantees that every changer must keep.
+//! Promises of changers: behaviour that every changer must show in a test.
 
 use std::time::Instant;
 
@@ -8,7 +8,7 @@ use crate::promise::{Unmet, answered, broken, expect, refused, skipped};
 use crate::report::Report;
 use crate::trial::{Alarm, Promise, Trial, Tried, report, was_within};
 
-/// Tests a changer. The test moves each item of the changer into place.
+/// Tests a changer. The test moves each item of the changer into place, if `trial` allows motions.
 pub fn changer(factory: &dyn Factory<dyn Changer>, trial: &Trial) -> Report {
     report(factory, trial, PROMISES)
 }
@@ -36,7 +36,7 @@ fn declared<'a>(tried: &'a Subject<'_>) -> Result<&'a [String], Unmet> {
     }
 }
 
-/// Opens the changer and lists its items. Skips the promise if there are none.
+/// Opens the changer and lists its items. Skips the promise if the changer has no items.
 fn holding(tried: &Subject<'_>) -> Result<(Box<dyn Changer>, Vec<String>), Unmet> {
     let changer = tried.open()?;
     match changer.holds().to_vec() {

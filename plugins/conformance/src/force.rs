@@ -7,7 +7,7 @@ use crate::report::Report;
 use crate::stream::{self, Stream, as_declared, started};
 use crate::trial::{Promise, Trial, Tried, report};
 
-/// Tests a force transducer.
+/// Tests the promises of a force transducer with the settings of `trial`. Nothing may touch the transducer during the test.
 pub fn force(factory: &dyn Factory<dyn ForceTransducer>, trial: &Trial) -> Report {
     report(factory, trial, PROMISES)
 }
@@ -36,7 +36,7 @@ fn facts<'a>(tried: &'a Subject<'_>) -> Result<&'a ForceFacts, Unmet> {
     facts.ok_or_else(|| broken("does not declare itself a force transducer"))
 }
 
-/// Readings are finite and within the declared range on declared axes, and 0 on other axes.
+/// Readings are finite. Forces are below the declared maximum, and axes that the driver does not declare read 0.
 fn measures(tried: &Subject<'_>) -> Result<(), Unmet> {
     let facts = facts(tried)?;
     let mut transducer = started(tried)?;
@@ -83,7 +83,7 @@ fn tares(tried: &Subject<'_>) -> Result<(), Unmet> {
     Ok(())
 }
 
-/// Each reading has a new number if the driver declares numbered readings, and no number otherwise.
+/// Consecutive readings have different numbers if the driver declares numbered readings, and no numbers otherwise.
 fn numbers(tried: &Subject<'_>) -> Result<(), Unmet> {
     let declared = facts(tried)?.numbered;
     let mut transducer = started(tried)?;

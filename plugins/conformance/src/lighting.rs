@@ -6,7 +6,7 @@ use crate::promise::{Unmet, answered, broken, expect, refused};
 use crate::report::Report;
 use crate::trial::{Promise, Trial, Tried, report};
 
-/// Tests a lighting device.
+/// Tests the promises of a lighting device with the settings of `trial`.
 pub fn lighting(factory: &dyn Factory<dyn Lighting>, trial: &Trial) -> Report {
     report(factory, trial, PROMISES)
 }

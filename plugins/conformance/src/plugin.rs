@@ -1,8 +1,8 @@
-//! Promises of a plugin. Each promise is checked in a separate confined process with a time limit. The start of a process may take seconds, so one process
-//! first runs all harmless checks. If that process fails, the checks run separately.
+//! Checks the promises of a plugin, each in a separate confined process with a time limit. Starting a process may take seconds, so one process first
+//! runs all checks that leave it unchanged. If that process fails, its checks run again one by one.
 //!
-//! A check runs in the child, in the plugin's process. A check calls the functions of the plugin's tables correctly and incorrectly. Damage to the process does
-//! not affect other checks. A trusted plugin is checked in an unconfined process, as in normal use.
+//! A check runs in the child process that has loaded the plugin. A check calls the functions of the plugin's tables correctly and incorrectly. Damage
+//! to the process does not affect other checks. A trusted plugin is checked in an unconfined process, as in normal use.
 
 mod attempt;
 mod changer_table;
@@ -63,7 +63,7 @@ pub(crate) enum Of {
 }
 
 impl Of {
-    /// Creates a check that calls the function table of this subject directly.
+    /// Creates a check of the subject `self` that calls a function table of the plugin directly.
     const fn check(self, name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Check {
         Check {
             name,
@@ -73,7 +73,7 @@ impl Of {
     }
 }
 
-/// Test function of a check. The function calls a function table directly, or an open device through the interface of its kind.
+/// Test function of a check. The function calls a function table of the plugin, or uses an open device through the device trait of core.
 #[derive(Clone, Copy)]
 pub(crate) enum Test {
     Table(fn(&Subject) -> Result<(), Unmet>),
@@ -105,7 +105,7 @@ impl std::fmt::Debug for Check {
     }
 }
 
-/// All checks, by group.
+/// All checks, ordered by group.
 pub fn checks() -> Vec<Check> {
     [
         library::CHECKS.to_vec(),
@@ -141,8 +141,8 @@ pub fn checks() -> Vec<Check> {
     .concat()
 }
 
-/// Promises of a kind, and promises of its table. A promise of the table replaces a device promise of the same name, which would test the host
-/// instead of the plugin.
+/// Checks of the devices of one `kind`, and checks of its function `table`. A table check replaces the device check of the same name, which would
+/// test the host instead of the plugin.
 fn of_kind<D: ?Sized>(
     kind: DriverKind,
     promises: &'static [Promise<D>],
@@ -159,7 +159,7 @@ fn of_kind<D: ?Sized>(
     of_devices.chain(table.iter().copied()).collect()
 }
 
-/// Serves as the child of a host and exits, if this process was started as a child. Such a child also runs checks.
+/// Serves as a child process of the host and exits, if this process was started as such a child. The child also runs checks.
 ///
 /// A program that checks plugins calls this function instead of [`taceva_host::main_if_child`].
 pub fn main_if_child() {

@@ -1,4 +1,4 @@
-//! Errors of broken promises, and helpers that create them.
+//! Reasons why a promise is broken or skipped, and functions that create them.
 
 use std::fmt;
 
@@ -35,12 +35,12 @@ pub(crate) fn skipped(why: impl Into<String>) -> Unmet {
     Unmet::Skipped(why.into())
 }
 
-/// Fails with `why` unless `holds`.
+/// Fails with the reason `why` unless `holds` is true.
 pub(crate) fn expect(holds: bool, why: impl FnOnce() -> String) -> Result<(), Unmet> {
     if holds { Ok(()) } else { Err(broken(why())) }
 }
 
-/// Error with a kind.
+/// Error that has an [`ErrorKind`].
 pub(crate) trait Kinded: fmt::Display {
     /// Kind of the error.
     fn of_kind(&self) -> ErrorKind;
@@ -58,7 +58,7 @@ impl Kinded for ModelError {
     }
 }
 
-/// Fails unless `result` is an error of one of `kinds`.
+/// Fails unless `result` is an error whose kind is in `kinds`.
 pub(crate) fn refused<T, E: Kinded>(
     doing: &str,
     result: Result<T, E>,
@@ -86,7 +86,7 @@ pub(crate) fn answered<T>(
     }
 }
 
-/// Fails unless times are finite and increasing, and each reception time is at or after its valid time.
+/// Fails unless the times of `stamps` are finite, the times of validity increase, and no item was received before it was valid.
 pub(crate) fn in_order(stamps: &[Stamp]) -> Result<(), Unmet> {
     for stamp in stamps {
         let valid_s = stamp.valid_s;

@@ -14,7 +14,7 @@ pub struct Report {
     pub promises: Vec<Tested>,
 }
 
-/// One tested promise.
+/// Promise of a driver, with the outcome of its test.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tested {
     /// Name: kind and promise, separated by `/`.

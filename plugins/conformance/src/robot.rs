@@ -1,4 +1,4 @@
-//! Promises of robots. A trial moves a robot by [`Trial::travel`] away from the gel and back. No promise presses the gel.
+//! Promises of robots. Tests with motions move the robot by [`Trial::travel`] away from the gel and back. No test presses the gel.
 
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -15,7 +15,7 @@ use crate::report::Report;
 use crate::stream::as_declared;
 use crate::trial::{Promise, Trial, Tried, report, was_within};
 
-/// Tests a robot. The robot moves.
+/// Tests the promises of a robot with the settings of `trial`. The robot moves if `trial` allows motions.
 pub fn robot(factory: &dyn Factory<dyn Robot>, trial: &Trial) -> Report {
     report(factory, trial, PROMISES)
 }
@@ -36,7 +36,8 @@ pub(crate) const PROMISES: &[Promise<dyn Robot>] = &[
 
 type Subject<'a> = Tried<'a, dyn Robot>;
 
-/// Poses agree and are in the workspace, and stamps never decrease. A call whose deadline has passed returns at once.
+/// Repeated poses of a resting robot agree and are in the workspace, and their stamps never decrease. A call whose deadline has passed returns at
+/// once.
 fn poses(tried: &Subject<'_>) -> Result<(), Unmet> {
     let mut robot = tried.open()?;
     let (first, mut last) = robot.pose(tried.trial.deadline)?;
@@ -246,7 +247,7 @@ fn halts_from_another_thread(tried: &Subject<'_>) -> Result<(), Unmet> {
     course.still_home(tried, &mut *robot)
 }
 
-/// Halts from four threads succeed. The halt handle of a dropped robot stops no other robot.
+/// Calls of `halt` from four threads succeed. The halt handle of a dropped robot stops no other robot.
 fn halts_from_all_sides(tried: &Subject<'_>) -> Result<(), Unmet> {
     let mut robot = tried.open()?;
     let handle = robot.halt_handle();
@@ -298,14 +299,14 @@ fn guards_as_declared(tried: &Subject<'_>) -> Result<(), Unmet> {
     course.still_home(tried, &mut *robot)
 }
 
-/// Short path away from the gel, with the speed.
+/// Short path from the first pose away from the gel, with the speed of the robot on this path.
 struct Course {
     home: Pose,
     away: Pose,
     speed: Speed,
 }
 
-/// Default speed of a trial, mm/s. A slower robot uses its own speed limit.
+/// Speed of a robot in a trial, mm/s. A robot with a lower limit moves at this limit.
 const UNHURRIED: f64 = 5.0;
 
 impl Course {
@@ -346,7 +347,8 @@ fn facts<'a>(tried: &'a Subject<'_>) -> Result<&'a RobotFacts, Unmet> {
     facts.ok_or_else(|| broken("does not declare itself a robot"))
 }
 
-/// Fails unless the positions of the two poses agree within six standard deviations of a difference, or 0.1 mm without a declared repeatability.
+/// Fails unless each coordinate of both positions differs by at most six standard deviations of a difference of two poses. Without a declared
+/// repeatability, the limit is 0.1 mm.
 fn near(tried: &Subject<'_>, found: &Pose, expected: &Pose) -> Result<(), Unmet> {
     const UNKNOWN_MM: f64 = 0.1;
     const ROUNDING_MM: f64 = 1e-6;

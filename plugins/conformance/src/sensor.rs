@@ -8,7 +8,7 @@ use crate::report::Report;
 use crate::stream::{self, capture, started};
 use crate::trial::{Promise, Trial, Tried, report};
 
-/// Tests a sensor.
+/// Tests the promises of a sensor with the settings of `trial`.
 pub fn sensor(factory: &dyn Factory<dyn Sensor>, trial: &Trial) -> Report {
     report(factory, trial, PROMISES)
 }

@@ -1,4 +1,4 @@
-//! Promises of devices that yield items after their start: frames of a sensor, or readings of a transducer.
+//! Promises of devices that deliver a sequence of items once started: frames of a sensor, or readings of a force transducer.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -10,7 +10,7 @@ use taceva_core::{
 use crate::promise::{Unmet, answered, expect, in_order, refused, skipped};
 use crate::trial::{Alarm, Tried, was_within};
 
-/// Device that yields a sequence of items.
+/// Device that delivers a sequence of items once started, such as frames.
 pub(crate) trait Stream {
     /// Name of an item in messages: `frame` or `reading`.
     const ITEM: &'static str;
@@ -110,7 +110,7 @@ pub(crate) fn stamps<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unm
     in_order(&stamps.collect::<Result<Vec<_>, _>>()?)
 }
 
-/// A request before the start either returns an item or fails. The device works afterwards.
+/// A request for an item before the start either returns an item or fails. The device can then be started normally.
 pub(crate) fn before_start<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
     let mut device = tried.open()?;
     let doing = format!("a {} before the start", D::ITEM);
@@ -144,7 +144,7 @@ pub(crate) fn any_order<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), 
     in_order(&stamps)
 }
 
-/// Dropping a device releases its resources in every state.
+/// Dropping a device releases its resources, if the device is new, started, or stopped. A further device can then be opened.
 pub(crate) fn dropped<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
     drop(tried.open()?);
     drop(started(tried)?);
@@ -163,7 +163,7 @@ pub(crate) fn passed_deadline<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Resul
     keeps(tried, 5, Duration::ZERO)
 }
 
-/// A wait with a short deadline ends soon after the deadline.
+/// A wait with a short deadline ends at most `Trial::at_once` after the deadline.
 pub(crate) fn keeps_deadlines<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
     keeps(tried, 10, Duration::from_millis(5))
 }
@@ -192,7 +192,7 @@ fn keeps<D: Stream + ?Sized>(
     Ok(())
 }
 
-/// An interrupt from another thread ends a wait in time. The device works afterwards.
+/// An interrupt from another thread ends a wait within `Trial::acts_within`. The device works afterwards.
 pub(crate) fn interrupt<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
     let mut device = started(tried)?;
     let alarm = Alarm::set(device.interrupter())?;
@@ -222,7 +222,7 @@ pub(crate) fn interrupt<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), 
     Ok(())
 }
 
-/// A simulated device yields equal items for equal arguments.
+/// A simulated device delivers equal items in two runs with equal arguments.
 pub(crate) fn repeats<D: Stream + ?Sized, T: PartialEq>(
     tried: &Tried<'_, D>,
     item: fn(&mut D, Deadline) -> Result<T, DriverError>,
@@ -240,7 +240,7 @@ pub(crate) fn repeats<D: Stream + ?Sized, T: PartialEq>(
     })
 }
 
-/// Passes if the ability is both declared and present. Skips the promise if it is neither; fails otherwise.
+/// Passes if the device has the `ability` and the driver declares it. Skips the promise if neither holds; fails otherwise.
 pub(crate) fn as_declared(ability: &str, declared: bool, has: bool) -> Result<(), Unmet> {
     match (has, declared) {
         (true, true) => Ok(()),

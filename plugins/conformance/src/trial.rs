@@ -12,25 +12,25 @@ use taceva_core::{
 use crate::promise::{Unmet, broken, expect, skipped};
 use crate::report::{Outcome, Report, Tested};
 
-/// Settings of a trial.
+/// Settings for testing a driver on its device.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
-    /// Arguments for opening, as written after the colon of a selector.
+    /// Arguments for opening the device, as a user writes them after the driver key and a colon.
     pub arguments: String,
     /// Deadline of calls that should succeed, on the clock of the device.
     pub deadline: Deadline,
     /// Time limit of a call that should return at once, on the clock of this machine.
     pub at_once: Duration,
-    /// Time limit for the effect of an interrupt or a halt.
+    /// Time limit from an interrupt or a halt until the call in progress has returned.
     pub acts_within: Duration,
     /// Distance that a robot moves away from the gel, mm.
     pub travel: Millimetre,
-    /// False if promises that move a robot or a changer are skipped.
+    /// True if the trial may move robots and changers; otherwise promises with motions are skipped.
     pub moves: bool,
 }
 
 impl Trial {
-    /// Creates a trial with `arguments`: 1 s for calls that should succeed, 0.5 s for calls that should return at once, 0.5 mm of travel.
+    /// Creates a trial with `arguments`. Calls that should succeed have 1 s, calls that should return at once have 0.5 s. A robot travels 0.5 mm.
     pub fn with_arguments(arguments: impl Into<String>) -> Trial {
         Trial {
             arguments: arguments.into(),
@@ -49,7 +49,7 @@ impl Default for Trial {
     }
 }
 
-/// Name, `kind/words`, and test of one promise of the devices `D`.
+/// Name (`kind/words`) and test function of one promise of devices with the trait `D`.
 pub(crate) type Promise<D> = (&'static str, fn(&Tried<'_, D>) -> Result<(), Unmet>);
 
 /// Driver under test.
@@ -61,7 +61,7 @@ pub(crate) struct Tried<'a, D: ?Sized> {
     pub(crate) trial: &'a Trial,
 }
 
-/// Tests every promise. A panic of the driver breaks only the tested promise.
+/// Tests every promise of the driver. A panic of the driver breaks only the promise under test.
 pub(crate) fn report<D: ?Sized>(
     factory: &dyn Factory<D>,
     trial: &Trial,
@@ -96,7 +96,7 @@ pub(crate) fn report<D: ?Sized>(
 }
 
 impl<'a, D: ?Sized> Tried<'a, D> {
-    /// Driver of `factory`, described for the arguments of `trial`.
+    /// Prepares the test of the driver of `factory`: parses the arguments of `trial` and describes the driver.
     pub(crate) fn new(factory: &'a dyn Factory<D>, trial: &'a Trial) -> Result<Self, Unmet> {
         let of_trial = factory.descriptor();
         let args = of_trial.args(&trial.arguments);
@@ -114,14 +114,14 @@ impl<'a, D: ?Sized> Tried<'a, D> {
         })
     }
 
-    /// Opens the device in its own rig.
+    /// Opens the device in a new rig.
     pub(crate) fn open(&self) -> Result<Box<D>, Unmet> {
         let is_real = self.descriptor.source() == DriverSource::Real;
         let opened = self.factory.open(&self.args, &mut Rig::new());
         opened.map_err(|error| unopened(error, is_real))
     }
 
-    /// Returns a reading that the test needs. Skips the promise if the recording of a replay has ended.
+    /// Returns a reading that the test needs. Skips the promise if the device replays a recording, and the recording has ended.
     pub(crate) fn reading<T>(&self, read: Result<T, DriverError>) -> Result<T, Unmet> {
         let is_recording = self.descriptor.source() == DriverSource::Recorded;
         read.map_err(|error| match error.kind() {
@@ -146,12 +146,12 @@ impl<'a, D: ?Sized> Tried<'a, D> {
         Err(skipped("it would move a real device; `--move` allows it"))
     }
 
-    /// Returns the result of `call`. Fails unless `call` returns at once.
+    /// Returns the result of `call`. Fails unless `call` returns within [`Trial::at_once`].
     pub(crate) fn at_once<T>(&self, doing: &str, call: impl FnOnce() -> T) -> Result<T, Unmet> {
         self.in_time(doing, Duration::ZERO, call)
     }
 
-    /// Returns the result of `call`. Fails unless `call` returns within `given` plus the limit of an immediate call.
+    /// Returns the result of `call`. Fails unless `call` returns within `given` plus [`Trial::at_once`].
     pub(crate) fn in_time<T>(
         &self,
         doing: &str,
@@ -165,10 +165,10 @@ impl<'a, D: ?Sized> Tried<'a, D> {
     }
 }
 
-/// Beginning of the reason why a promise without a connected device is skipped.
+/// First words of the reason for skipping a promise, if no device is connected.
 pub(crate) const NO_DEVICE: &str = "no device is connected";
 
-/// Reason why a device did not open. A missing real device gives a skipped promise.
+/// Reason why a device did not open. If a real device is missing, the promise is skipped.
 pub(crate) fn unopened(error: DriverError, is_real: bool) -> Unmet {
     match error.kind() {
         ErrorKind::NotFound | ErrorKind::Disconnected if is_real => {
@@ -178,7 +178,7 @@ pub(crate) fn unopened(error: DriverError, is_real: bool) -> Unmet {
     }
 }
 
-/// Fails if `took` exceeds `most`.
+/// Fails if the call described by `doing` took longer than `most`.
 pub(crate) fn was_within(doing: &str, took: Duration, most: Duration) -> Result<(), Unmet> {
     expect(took <= most, || {
         format!("{doing} took {took:?}, expected at most {most:?}")
@@ -191,7 +191,7 @@ pub(crate) struct Alarm {
 }
 
 impl Alarm {
-    /// Starts the thread of the alarm.
+    /// Starts the thread that calls `interrupt`. Skips the promise if the device has no interrupt.
     pub(crate) fn set(interrupt: Option<Arc<dyn Interrupt>>) -> Result<Alarm, Unmet> {
         let interrupt = interrupt.ok_or_else(|| skipped("it cannot be interrupted"))?;
         let (sender, rung) = mpsc::channel();
@@ -205,12 +205,12 @@ impl Alarm {
         Ok(Alarm { rung })
     }
 
-    /// Time of the interrupt; `None` until the interrupt has returned.
+    /// Time at which the interrupt was called; `None` until this call has returned.
     pub(crate) fn rang(&self) -> Option<Instant> {
         self.rung.try_recv().ok()
     }
 
-    /// Waits for the interrupt to return, and returns its time.
+    /// Waits until the interrupt call has returned, and returns the time of the call.
     pub(crate) fn wait(&self) -> Result<Instant, Unmet> {
         let rung = self.rung.recv_timeout(Duration::from_secs(10));
         rung.map_err(|_| broken("the interrupt did not return within 10 s"))

@@ -1,4 +1,5 @@
-//! Calls on an open device, by kind. Every function runs in a [`guard`] and checks its arguments with [`memory`](crate::memory).
+//! Functions with which the host calls an open device, by kind of device. Every function runs in a [`guard`] and checks its arguments with
+//! [`memory`](crate::memory).
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 
@@ -20,22 +21,22 @@ use crate::guard::{caught, guard};
 use crate::handles::{self, Handle};
 use crate::memory;
 
-/// Kind of device: its type behind a handle, and its calls.
+/// Kind of device: the type of an open device, and the table of functions with which the host calls such a device.
 pub(crate) trait Kind: 'static {
-    /// Type behind a handle.
+    /// Type of an open device, which the host addresses by a handle.
     type Opened: Any + Send;
-    /// Calls in the table of this kind.
+    /// Table of functions for this kind of device.
     type Calls: 'static;
     const CALLS: &'static Self::Calls;
 
-    /// Drivers of this kind.
+    /// Drivers of this kind in the plugin.
     fn drivers(loaded: &Loaded) -> &Drivers<Self>;
 
-    /// Stores the open device and creates its handle. `facts` are the facts of its driver.
+    /// Wraps the open `device` for a handle. `facts` are the declared facts of its driver.
     fn handle(device: Box<Self>, facts: &Facts) -> Handle<Self::Opened>;
 }
 
-/// Calls that every device has, for a table of type `T` and devices of type `O`.
+/// Functions that every device has. `T` is the function table of the kind, and `O` the type of an open device.
 const fn device_calls<T, O: Any + Send>(
     extension: unsafe extern "C" fn(*mut c_void, Text) -> *const c_void,
 ) -> DeviceCalls {
@@ -66,10 +67,10 @@ unsafe extern "C" fn interrupt<O: Any + Send>(handle: *mut c_void) {
     }));
 }
 
-/// Runs `work` with exclusive access to the device behind `handle`.
+/// Runs `work` with exclusive access to the open device, of type `O`, that has this `handle`.
 ///
 /// # Safety
-/// As [`guard`].
+/// `error` is valid, as for [`guard`].
 unsafe fn call<O: Any + Send>(
     handle: *mut c_void,
     error: *mut Error,
@@ -79,10 +80,10 @@ unsafe fn call<O: Any + Send>(
     unsafe { guard(error, || handles::find::<Handle<O>>(handle)?.call(work)) }
 }
 
-/// Returns the table `calls` if `id` equals `name` and `has` is true for the device; otherwise NULL.
+/// Returns the extension table `calls` if the requested `id` equals `name`, and `has` returns true for the device; otherwise NULL.
 ///
 /// # Safety
-/// `id` is borrowed for the call.
+/// The text `id` stays unchanged during the call.
 unsafe fn extended<O: Any + Send, T>(
     handle: *mut c_void,
     id: Text,

@@ -1,4 +1,4 @@
-//! Conversion between numbers of the plugin boundary and of core. Both directions reject numbers that are not finite.
+//! Conversion between values at the C boundary of plugins and values of `taceva-core`. Both directions reject numbers that are not finite.
 //!
 //! Positions are in m at the boundary and in mm in core. Forces are in N and torques in N·mm on both sides.
 
@@ -15,12 +15,12 @@ pub(crate) fn deadline(timeout_ns: u64) -> Deadline {
     Deadline::after(Duration::from_nanos(timeout_ns))
 }
 
-/// Converts a duration to nanoseconds. Times above 584 years become the greatest number.
+/// Converts a duration to nanoseconds. Durations above 584 years become [`u64::MAX`].
 pub(crate) fn nanoseconds(time: Duration) -> u64 {
     u64::try_from(time.as_nanos()).unwrap_or(u64::MAX)
 }
 
-/// Converts the target pose and the speed of a requested motion.
+/// Converts the target pose and the speed of a motion that the host requests.
 pub(crate) fn motion(motion: &Motion) -> Result<(Pose, Speed), Failure> {
     let AbiPose {
         x,
@@ -46,7 +46,7 @@ pub(crate) fn motion(motion: &Motion) -> Result<(Pose, Speed), Failure> {
     Ok((target, speed))
 }
 
-/// Converts a pose reported by the device.
+/// Converts a pose of the device for the host.
 pub(crate) fn pose(pose: &Pose) -> Result<AbiPose, Failure> {
     check_pose(pose).map_err(fault)?;
     let SiPose {
@@ -64,7 +64,7 @@ pub(crate) fn pose(pose: &Pose) -> Result<AbiPose, Failure> {
     })
 }
 
-/// Converts a wrench reported by the device.
+/// Converts a wrench of the device for the host.
 pub(crate) fn wrench(wrench: &Wrench) -> Result<AbiWrench, Failure> {
     check_wrench(wrench).map_err(fault)?;
     Ok(AbiWrench {
@@ -73,7 +73,7 @@ pub(crate) fn wrench(wrench: &Wrench) -> Result<AbiWrench, Failure> {
     })
 }
 
-/// Converts a stamp reported by the device.
+/// Converts a time stamp of the device for the host.
 pub(crate) fn stamp(stamp: &Stamp) -> Result<AbiStamp, Failure> {
     let is_time = |time_s: f64| time_s.is_finite() && time_s >= 0.0;
     let valid_s = stamp.valid_s;

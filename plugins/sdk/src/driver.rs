@@ -6,7 +6,7 @@ use taceva_core::{
 
 use crate::estimator::EstimatorFactory;
 
-/// Driver or estimator that a plugin provides, as the function that makes its factory.
+/// Driver or estimator of a plugin, as its factory or as a function that makes the factory.
 ///
 /// [`export_plugin!`](crate::export_plugin) creates drivers from its arguments.
 ///
@@ -96,7 +96,7 @@ pub enum Made {
 /// ```
 pub type MakeEstimator = fn() -> Box<dyn EstimatorFactory>;
 
-/// Kind of driver or estimator, such as `dyn Sensor`, for the arguments of [`export_plugin!`](crate::export_plugin).
+/// Kind of driver or estimator, such as `dyn Sensor`, which [`export_plugin!`](crate::export_plugin) accepts.
 ///
 /// ```
 /// # use taceva_core::{Args, Axes, Deadline, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverKey, DriverSource, Factory};

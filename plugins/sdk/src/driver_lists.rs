@@ -10,10 +10,10 @@ use taceva_core::{
 
 use crate::failure::Failure;
 
-/// Drivers of one kind, indexed by their number.
+/// Drivers of one kind. The host addresses a driver by its index.
 pub(crate) type Drivers<D> = Vec<Box<dyn CoreFactory<D>>>;
 
-/// Drivers by kind, and the tables with which a host calls the drivers.
+/// Drivers of the plugin by kind, and the tables of functions with which a host calls them.
 pub(crate) struct Loaded {
     pub(crate) sensors: Drivers<dyn Sensor>,
     pub(crate) robots: Drivers<dyn Robot>,
@@ -21,12 +21,12 @@ pub(crate) struct Loaded {
     pub(crate) lightings: Drivers<dyn Lighting>,
     pub(crate) changers: Drivers<dyn Changer>,
     pub(crate) estimators: Vec<Box<dyn EstimatorFactory>>,
-    /// Prefix of each driver key, up to the last `/`.
+    /// Distinct prefixes of the driver keys: each key up to its last `/`.
     pub(crate) prefixes: BTreeSet<String>,
     pub(crate) tables: Tables,
 }
 
-/// Table of calls for each kind of driver in the plugin.
+/// Table of functions for each kind of driver; `None` for a kind without drivers in the plugin.
 pub(crate) struct Tables {
     pub(crate) sensor: Option<Factory>,
     pub(crate) robot: Option<Factory>,

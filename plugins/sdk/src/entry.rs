@@ -1,4 +1,4 @@
-//! Start and end of a plugin, and access to its drivers.
+//! Start and end of a plugin, and access of the host to its drivers.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 
@@ -94,7 +94,7 @@ fn table<D: Kind + ?Sized>(drivers: usize) -> Option<Factory> {
     count(drivers).map(factory::table::<D>)
 }
 
-/// Number of drivers for a table; `None` for 0.
+/// Number of drivers in a table; `None` for 0, which needs no table.
 fn count(drivers: usize) -> Option<u32> {
     u32::try_from(drivers).ok().filter(|count| *count > 0)
 }

@@ -1,8 +1,8 @@
-//! Trait of a crate that is exported as a plugin.
+//! Trait that describes a crate as a plugin.
 
 use crate::driver::Driver;
 
-/// Id, version and drivers of a crate that is exported as a plugin. [`export_plugin!`](crate::export_plugin) implements this trait.
+/// Id, version and drivers of a crate that is built as a plugin. [`export_plugin!`](crate::export_plugin) implements this trait.
 ///
 /// ```
 /// use taceva_plugin::{Driver, Export, plugin};
@@ -18,11 +18,12 @@ use crate::driver::Driver;
 /// assert_eq!(table.abi_major, taceva_plugin::abi::ABI_MAJOR);
 /// ```
 pub trait Export {
-    /// Id of the plugin, reverse DNS, as in the manifest.
+    /// Id of the plugin as in the manifest, in reverse domain order: `org.example.digit`.
     const ID: &'static str;
     /// Version of the plugin, as in the manifest.
     const VERSION: &'static str;
-    /// External needs of the plugin, one per line, as in `needs` of the manifest. `taceva plugin manifest --write` copies the needs to the manifest.
+    /// External needs of the plugin, such as a USB library, one per line, as in `needs` of the manifest. `taceva plugin manifest --write` copies the
+    /// needs to the manifest.
     const NEEDS: &'static str = "";
 
     /// Drivers and estimators that the plugin provides.

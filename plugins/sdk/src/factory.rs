@@ -1,4 +1,4 @@
-//! Calls of the host that describe, discover and open drivers of one kind.
+//! Functions with which the host describes, discovers and opens drivers of one kind.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 
@@ -18,7 +18,7 @@ use crate::memory;
 use crate::rig::with_rig;
 use crate::table::provides_table;
 
-/// Table of calls for a plugin with `drivers` drivers of the kind.
+/// Table of functions of a plugin with `drivers` drivers of the kind `D`.
 pub(crate) fn table<D: Kind + ?Sized>(drivers: u32) -> Table {
     #[expect(clippy::cast_possible_truncation, reason = "forty bytes")]
     let size = size_of::<Table>() as u32;
@@ -71,10 +71,10 @@ unsafe extern "C" fn describe<D: Kind + ?Sized>(
     unsafe { guard(error, work) }
 }
 
-/// True if the host requests a description before it has arguments: `given` is NULL, or is empty although an argument is required.
+/// True if the host requests a description without arguments: `given` is NULL, or an argument is required and `given` is empty.
 ///
 /// # Safety
-/// As for [`args`].
+/// `given` is valid, as for [`args`].
 unsafe fn is_before_any(given: *const AbiArgs, specs: &[ArgSpec]) -> Result<bool, Failure> {
     if given.is_null() {
         return Ok(true);
@@ -130,7 +130,7 @@ unsafe extern "C" fn open<D: Kind + ?Sized>(
     unsafe { guard(error, work) }
 }
 
-/// Reads the given arguments and checks them again against the declarations. NULL is an empty list.
+/// Reads the arguments `given` by the host, and checks them against their declarations `specs`. NULL is an empty list.
 ///
 /// # Safety
 /// `given` is NULL, or points to arguments that stay unchanged during the call.

@@ -1,4 +1,4 @@
-//! Failures of calls of the host.
+//! Failures that the plugin reports to the host.
 
 use taceva_abi::{FaultNumber, MESSAGE_SIZE, Status};
 use taceva_core::{DriverError, ErrorKind, Fault, ModelError};
@@ -21,7 +21,7 @@ impl Failure {
         }
     }
 
-    /// Creates the failure for a wrong argument of the caller.
+    /// Creates the failure for a wrong argument of the host.
     pub(crate) fn argument(message: impl Into<String>) -> Failure {
         Failure::new(ErrorKind::InvalidArgument, message)
     }
@@ -33,7 +33,8 @@ impl Failure {
 }
 
 impl From<DriverError> for Failure {
-    /// Message with the operation and the reason, or only the reason if both exceed the length of a message. The host itself adds the driver and the call.
+    /// Creates a message of the operation and the reason, or only of the reason if both exceed the length of a message. The host adds the driver and
+    /// the call.
     fn from(error: DriverError) -> Failure {
         let message = match std::error::Error::source(&error) {
             Some(reason) => {

@@ -9,10 +9,10 @@ use taceva_core::ErrorKind;
 
 use crate::failure::Failure;
 
-/// Runs `work` and returns its status. No panic unwinds into the host. Writes the message of a failure to `error`.
+/// Runs `work` and returns its status. A panic becomes a failure. Writes the message of a failure to `error`.
 ///
 /// # Safety
-/// `error` is NULL, or points to memory of the length in its `size`, which belongs to the callee during the call.
+/// `error` is NULL, or points to as many bytes as its field `size` states. No other code uses these bytes during the call.
 pub(crate) unsafe fn guard(
     error: *mut Error,
     work: impl FnOnce() -> Result<(), Failure>,
@@ -41,7 +41,7 @@ pub(crate) fn caught<T>(work: impl FnOnce() -> T) -> Result<T, Failure> {
     })
 }
 
-/// Writes `message` to the caller's error. Truncates a too long message between two characters.
+/// Writes `message` to the `error` of the caller. Truncates a message that is too long, between two characters.
 unsafe fn write_message(error: *mut Error, message: &str) {
     const HEAD: usize = offset_of!(Error, message);
     if error.is_null() || !error.is_aligned() {
@@ -65,7 +65,7 @@ unsafe fn write_message(error: *mut Error, message: &str) {
     }
 }
 
-/// Writes `fault` to the caller's error, if the `size` of the error covers the field.
+/// Writes `fault` to the `error` of the caller, if the `size` of the error is large enough for this field.
 unsafe fn write_fault(error: *mut Error, fault: FaultNumber) {
     const END: usize = offset_of!(Error, fault) + size_of::<FaultNumber>();
     if error.is_null() || !error.is_aligned() {

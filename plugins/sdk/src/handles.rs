@@ -1,4 +1,4 @@
-//! Open devices, rigs and fitted models. The host receives their numbers as handles.
+//! Open devices, rigs and fitted models, which the host addresses by handles.
 //!
 //! A handle is a number and never an address. Calls reject closed and unknown handles without dereferencing them.
 
@@ -27,7 +27,7 @@ pub(crate) fn keep(thing: impl Any + Send + Sync) -> *mut c_void {
     without_provenance_mut(number)
 }
 
-/// Finds the object of a handle. Fails for a closed or unknown handle, or another type.
+/// Finds the object of a handle. Fails if the handle is closed or unknown, or if the object has another type than `T`.
 pub(crate) fn find<T: Any + Send + Sync>(handle: *const c_void) -> Result<Arc<T>, Failure> {
     let open = OPEN.read().unwrap_or_else(PoisonError::into_inner);
     let thing = open.get(&handle.addr()).map(Arc::clone);
@@ -37,7 +37,7 @@ pub(crate) fn find<T: Any + Send + Sync>(handle: *const c_void) -> Result<Arc<T>
         .ok_or_else(|| Failure::argument("the handle is closed or of another kind"))
 }
 
-/// Removes a handle and drops its object. A call that still uses the object on another thread drops the object at its end.
+/// Removes a handle and drops its object. If another thread still uses the object, the object is dropped when that use ends.
 pub(crate) fn close(handle: *const c_void) {
     let mut open = OPEN.write().unwrap_or_else(PoisonError::into_inner);
     let thing = open.remove(&handle.addr());
@@ -46,11 +46,11 @@ pub(crate) fn close(handle: *const c_void) {
     drop(caught(|| drop(thing)));
 }
 
-/// Open device. A panic of the device makes the handle unusable.
+/// Open device with the objects that interrupt and halt it. A panic of the device makes the handle unusable.
 pub(crate) struct Handle<T> {
     is_dead: AtomicBool,
     device: Mutex<T>,
-    /// Interrupts a pending call without waiting for the device; `None` if the device has no interrupt handle.
+    /// Interrupts a call in progress without locking the device; `None` if the device has no interrupt handle.
     pub(crate) interrupt: Option<Arc<dyn Interrupt>>,
     pub(crate) halt: Option<Arc<dyn Halt>>,
 }
@@ -65,18 +65,18 @@ impl<T> Handle<T> {
         }
     }
 
-    /// Sets the interrupt of pending calls.
+    /// Sets the object that interrupts calls in progress.
     pub(crate) fn interrupted_by(self, interrupt: Option<Arc<dyn Interrupt>>) -> Handle<T> {
         Handle { interrupt, ..self }
     }
 
-    /// Sets the halt of motions.
+    /// Sets the object that halts motions.
     pub(crate) fn halted_by(self, halt: Arc<dyn Halt>) -> Handle<T> {
         let halt = Some(halt);
         Handle { halt, ..self }
     }
 
-    /// Runs `work` with exclusive access to the device. A panic makes only this handle unusable.
+    /// Runs `work` with exclusive access to the device. A panic of `work` makes only this handle unusable.
     pub(crate) fn call<R>(
         &self,
         work: impl FnOnce(&mut T) -> Result<R, Failure>,

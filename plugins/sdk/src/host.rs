@@ -9,15 +9,15 @@ use std::time::{Duration, Instant};
 
 use taceva_abi::{Host, Level, Text};
 
-/// Services of the host, set between `init` and `deinit`, otherwise NULL.
+/// Functions of the host, set between `init` and `deinit`; otherwise NULL.
 static HOST: AtomicPtr<Host> = AtomicPtr::new(null_mut());
 
-/// Stores the host.
+/// Stores the functions of the host, for [`log`] and [`now`].
 pub(crate) fn remember(host: *const Host) {
     HOST.store(host.cast_mut(), Ordering::Release);
 }
 
-/// Forgets the host. No later call uses its functions.
+/// Forgets the functions of the host. Later log lines are dropped, and [`now`] uses the clock of the plugin.
 pub(crate) fn forget() {
     HOST.store(null_mut(), Ordering::Release);
 }
@@ -28,7 +28,7 @@ fn host() -> Option<&'static Host> {
     unsafe { host.as_ref() }
 }
 
-/// Writes a line to the log of the host. Does nothing in a driver that is linked into the program.
+/// Writes a line to the log of the host. Does nothing if the driver is linked into the program and is not loaded as a plugin.
 ///
 /// ```
 /// taceva_plugin::log(taceva_plugin::Level::Warn, "the camera is warm");
@@ -44,7 +44,7 @@ pub fn log(level: Level, message: &str) {
 
 /// Time of the monotonic clock of the host, for the stamps of real devices.
 ///
-/// In a linked driver, or before the plugin is initialised, the time counts from the first call.
+/// If the driver is linked into a program, or before the plugin is initialised, the time counts from the first call of this function.
 ///
 /// ```
 /// let before = taceva_plugin::now();

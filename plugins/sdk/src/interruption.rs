@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use taceva_core::{DriverError, Halt, Interrupt};
 
-/// Interrupts the pending call of a device. Provides the `interrupt_handle` of a sensor, a force transducer or a changer.
+/// Interrupts the pending call of a device. Serves as the `interrupt_handle` of a sensor, a force transducer or a changer.
 ///
 /// ```
 /// use std::{sync::Arc, thread, time::Duration};
@@ -53,7 +53,7 @@ impl fmt::Display for Interrupted {
 
 impl std::error::Error for Interrupted {}
 
-/// Call that another thread can interrupt until this value is dropped.
+/// Call of a device in progress. Until this value is dropped, another thread can interrupt the call.
 ///
 /// ```
 /// use std::time::Duration;
@@ -71,12 +71,12 @@ pub struct InterruptibleCall<'a> {
 }
 
 impl Interruption {
-    /// Handle for the `interrupt_handle` of a device.
+    /// Handle to return from `interrupt_handle` of a device.
     pub fn handle(self: &Arc<Interruption>) -> Option<Arc<dyn Interrupt>> {
         Some(Arc::clone(self) as Arc<dyn Interrupt>)
     }
 
-    /// Begins a call that can be interrupted.
+    /// Marks the beginning of a call that another thread can interrupt. The call ends when the returned value is dropped.
     pub fn call(&self) -> InterruptibleCall<'_> {
         self.pending().calls += 1;
         InterruptibleCall { interruption: self }
@@ -126,7 +126,7 @@ impl Interrupt for Interruption {
     }
 }
 
-/// Latch of a halted robot. Provides the `halt_handle` of a robot without its own halt.
+/// State of a halted robot, kept until it is cleared. Serves as the `halt_handle` of a robot that has no function for halting.
 ///
 /// A motion in steps that waits on this latch ends within one step. A robot that moves without further commands must also be stopped.
 ///
@@ -147,12 +147,12 @@ pub struct HaltLatch {
 }
 
 impl HaltLatch {
-    /// Handle for the `halt_handle` of a robot.
+    /// Handle to return from `halt_handle` of a robot.
     pub fn handle(self: &Arc<HaltLatch>) -> Arc<dyn Halt> {
         Arc::clone(self) as Arc<dyn Halt>
     }
 
-    /// Waits for `time`. Returns earlier if halted.
+    /// Waits for `time`. Returns earlier if the robot is halted.
     ///
     /// # Errors
     /// [`Interrupted`] if the robot is halted before or during the wait.
@@ -165,7 +165,7 @@ impl HaltLatch {
         if *is_halted { Err(Interrupted) } else { Ok(()) }
     }
 
-    /// Ends the halt. Does nothing without a halt.
+    /// Ends the halt, so that the robot can move again. Does nothing if the robot is not halted.
     pub fn clear(&self) {
         *self.latch() = false;
     }

@@ -8,7 +8,7 @@ use taceva_abi::{TakeText, Text};
 
 use crate::failure::Failure;
 
-/// Reads the object at `pointer`. Rejects NULL and misaligned addresses.
+/// Returns the object at `pointer` for reading. Rejects NULL and misaligned addresses.
 ///
 /// # Safety
 /// `pointer` is NULL, misaligned, or points to a `T` that stays unchanged during `'a`.
@@ -21,17 +21,17 @@ pub(crate) unsafe fn given<'a, T>(name: &str, pointer: *const T) -> Result<&'a T
 /// Returns the object at `pointer` for writing. Rejects NULL and misaligned addresses.
 ///
 /// # Safety
-/// `pointer` is NULL, misaligned, or points to a `T` that belongs to the callee during `'a`.
+/// `pointer` is NULL, misaligned, or points to a `T` that no other code uses during `'a`.
 pub(crate) unsafe fn place<'a, T>(name: &str, pointer: *mut T) -> Result<&'a mut T, Failure> {
     straight(name, pointer)?;
     // SAFETY: guaranteed by the caller; NULL and misaligned addresses were rejected.
     Ok(unsafe { &mut *pointer })
 }
 
-/// Reads a struct whose first field is its size. Rejects a struct shorter than `T`.
+/// Returns a struct for reading whose first field, a `u32`, is its size in bytes. Rejects a struct shorter than `T`.
 ///
 /// # Safety
-/// `pointer` is NULL, misaligned, or points to as many bytes as its first `u32` states.
+/// `pointer` is NULL, misaligned, or points to as many bytes as its first `u32` states. The bytes stay unchanged during `'a`.
 pub(crate) unsafe fn sized<'a, T>(name: &str, pointer: *const T) -> Result<&'a T, Failure> {
     straight(name, pointer)?;
     // SAFETY: guaranteed by the caller.
@@ -44,7 +44,7 @@ pub(crate) unsafe fn sized<'a, T>(name: &str, pointer: *const T) -> Result<&'a T
 /// Same as [`sized`], for writing.
 ///
 /// # Safety
-/// As [`sized`], and the bytes belong to the callee during `'a`.
+/// As [`sized`], and no other code uses the bytes during `'a`.
 pub(crate) unsafe fn sized_place<'a, T>(name: &str, pointer: *mut T) -> Result<&'a mut T, Failure> {
     straight(name, pointer)?;
     // SAFETY: guaranteed by the caller.
@@ -76,7 +76,7 @@ fn long_enough<T>(name: &str, size: u32) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Reads a list of `length` objects that begins at `first`.
+/// Returns a list of `length` objects that begins at `first`, for reading.
 ///
 /// # Safety
 /// `first` is NULL, misaligned, or the start of `length` objects that stay unchanged during `'a`.
@@ -97,7 +97,7 @@ pub(crate) unsafe fn list<'a, T>(
 /// Same as [`list`], for writing.
 ///
 /// # Safety
-/// As [`list`], and the objects belong to the callee during `'a`.
+/// As [`list`], and no other code uses the objects during `'a`.
 pub(crate) unsafe fn list_place<'a, T>(
     name: &str,
     first: *mut T,
@@ -122,10 +122,10 @@ fn fits<T>(name: &str, length: usize) -> Result<(), Failure> {
     }
 }
 
-/// Reads a borrowed text.
+/// Returns a text of the host after a check of its address and of UTF-8.
 ///
 /// # Safety
-/// `data` is NULL, or its bytes stay unchanged during `'a`.
+/// `text.data` is NULL, or its `text.length` bytes stay unchanged during `'a`.
 pub(crate) unsafe fn text<'a>(name: &str, text: Text) -> Result<&'a str, Failure> {
     if text.data.is_null() && text.length > 0 {
         return Err(Failure::argument(format!("`{name}` is NULL")));

@@ -1,11 +1,11 @@
-//! Table that a library exports.
+//! Table of functions that the library of a plugin exports.
 
 use taceva_abi::{ABI_MAJOR, ABI_MINOR, MAGIC, Plugin, Text};
 
 use crate::export::Export;
 use crate::{entry, rig};
 
-/// Creates the table that a library exports for `E`. See the example of [`Export`].
+/// Creates the table of functions that the library of the plugin `E` exports. See the example of [`Export`].
 pub const fn plugin<E: Export>() -> Plugin {
     #[expect(clippy::cast_possible_truncation, reason = "a hundred bytes")]
     let size = size_of::<Plugin>() as u32;
@@ -26,9 +26,9 @@ pub const fn plugin<E: Export>() -> Plugin {
     }
 }
 
-/// Exports the drivers of a crate of type `cdylib` as the plugin `id`. The plugin has the version of the crate.
+/// Exports the drivers of a crate of type `cdylib` as a plugin with the given `id` and the version of the crate.
 ///
-/// `needs: ["usb"],` may follow the id and states external needs of the plugin, as in the manifest.
+/// The optional line `needs: ["usb"],` after the id states the external needs of the plugin, as in the manifest.
 ///
 /// Each entry of `drivers` has a kind of device and a `fn` that makes a factory, as in `taceva_core::submit_builtin!`.
 ///

@@ -1,4 +1,4 @@
-//! Objects that the devices of a rig share, and the simulated bench, if the plugin has one.
+//! Rigs: objects that several devices share, and the simulated bench of a plugin that has one.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 
@@ -42,7 +42,7 @@ pub(crate) unsafe extern "C" fn extension(_: *mut AbiRig, id: Text) -> *const c_
     }
 }
 
-/// Runs `work` with the rig that belongs to a handle.
+/// Runs `work` with the rig of the handle `rig`.
 pub(crate) fn with_rig<R>(
     rig: *const AbiRig,
     work: impl FnOnce(&mut Rig) -> R,
@@ -65,7 +65,7 @@ static CALLS: BenchCalls = BenchCalls {
     provenance: Some(provenance),
 };
 
-/// Finds the bench whose devices were opened with `rig=name`. Drivers register the bench under the prefix of their keys.
+/// Finds the simulated bench of the devices that were opened with the argument `rig=NAME`. Drivers register a bench under the prefix of their keys.
 unsafe fn bench(rig: *const AbiRig, name: Text) -> Result<Arc<dyn SimulatedBench>, Failure> {
     // SAFETY: the host lends the text for the call.
     let name = unsafe { memory::text("bench", name) }?;

@@ -1,4 +1,4 @@
-//! Writes the description of a driver as the `[[provides]]` table of a manifest.
+//! Writes the description of a driver as TOML, for the table `[[provides]]` of a manifest.
 
 mod toml;
 
@@ -11,9 +11,9 @@ use taceva_core::{
 
 use self::toml::{Number, Text, written};
 
-/// Table of a driver below `[[provides]]` of a manifest, as TOML, with `[[args]]` in place of `[[provides.args]]`.
+/// TOML text that describes a driver in `[[provides]]` of a manifest. The arguments are in `[[args]]`, not in `[[provides.args]]`.
 ///
-/// The key is the last part of the driver's key: a plugin `org.example.digit` provides `org.example.digit/finger` as `finger`.
+/// The text contains only the last part of the driver's key: the plugin `org.example.digit` provides `org.example.digit/finger` as `finger`.
 ///
 /// ```
 /// use taceva_core::{Axes, DescriptorSpec, DriverKey, DriverSource, Facts, ForceFacts};
@@ -95,7 +95,7 @@ impl Table {
         }
     }
 
-    /// Writes an inline table of the known fields. Writes nothing without known fields.
+    /// Writes `fields` as an inline table, without fields whose value is `None`. Writes nothing if all values are `None`.
     fn inline(&mut self, key: &str, fields: &[(&str, Option<String>)]) {
         let known: Vec<String> = fields
             .iter()

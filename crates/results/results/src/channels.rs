@@ -1,4 +1,4 @@
-//! Reduction of results to named channels.
+//! Restriction of a report to named channels.
 
 use taceva_metrics::plane_axes;
 
@@ -6,7 +6,7 @@ use crate::report::EvaluationReport;
 use crate::score::Score;
 
 impl EvaluationReport {
-    /// The report with only the scores and samples of the channels and planes called `names`. A plane keeps the samples of its axes.
+    /// Keeps only the scores and samples of the channels and planes called `names`. A plane, such as `Pxy`, keeps the samples of its two axes.
     #[must_use]
     pub fn of_channels(mut self, names: &[String]) -> EvaluationReport {
         let is_named = |score: &Score| names.contains(&score.channel);

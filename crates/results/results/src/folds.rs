@@ -5,7 +5,7 @@ use taceva_core::counted;
 use crate::provenance::Provenance;
 
 impl Provenance {
-    /// Description of the cross-validation behind the scores. `None` if one model was fitted, and tested on other samples.
+    /// Description of the cross-validation that gave the scores. `None` if one model was fitted, and tested on other samples.
     ///
     /// ```
     /// use taceva_results::Provenance;
@@ -41,7 +41,7 @@ impl Provenance {
         }
     }
 
-    /// Description of the samples and models of a [cross-validation](Provenance::cross_validation); `None` without a cross-validation.
+    /// Phrase with the number of test samples and of models of a [cross-validation](Provenance::cross_validation); `None` without a cross-validation.
     ///
     /// ```
     /// use taceva_results::Provenance;
@@ -68,7 +68,7 @@ impl Provenance {
         ))
     }
 
-    /// Number of models of the [cross-validation](Provenance::cross_validation). `None` if the provenance does not state the number.
+    /// Number of models that the [cross-validation](Provenance::cross_validation) fitted. `None` if the provenance does not state the number.
     pub fn fold_models(&self) -> Option<usize> {
         self.cross_validation()?;
         let split = self.split.as_deref()?;
@@ -82,7 +82,8 @@ impl Provenance {
 }
 
 impl Provenance {
-    /// Kind of group that the split keeps together and that intervals leave out: the column `object`, or `block of time`. `None` for other splits.
+    /// Kind of group that the split keeps in one part: a column such as `object`, or `block of time`. Intervals leave out these groups one by one.
+    /// `None` for other splits.
     ///
     /// ```
     /// use taceva_results::Provenance;
@@ -98,7 +99,7 @@ impl Provenance {
     }
 }
 
-/// Removes the number of folds, the shares and the named parts from the text of a split. The rest names the group that stays together.
+/// Removes fold count, shares and named parts from the text of a split, such as `by-point 70/20/10`. The rest names the groups that are not divided.
 ///
 /// ```
 /// assert_eq!(taceva_results::kept_together("cv:5 by-column:object"), "by-column:object");

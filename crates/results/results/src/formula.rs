@@ -24,7 +24,7 @@ pub fn unescape_csv(cell: &str) -> &str {
     }
 }
 
-/// True if a spreadsheet may evaluate the text as a formula, or if the text looks escaped. Full-width signs count as well.
+/// True if the text, without leading apostrophes, begins with a sign such as `=` or `＝`, a tab or a line break.
 fn begins_like_a_formula(text: &str) -> bool {
     text.trim_start_matches('\'')
         .starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '＝', '＋', '－', '＠'])

@@ -1,4 +1,4 @@
-//! Errors of each group of a split.
+//! Prediction errors of each group of a split.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,32 +7,32 @@ use serde::{Deserialize, Serialize};
 use crate::samples::Samples;
 use crate::score::Score;
 
-/// Greatest number of groups with listed errors.
+/// Greatest number of groups for which errors are listed.
 const MOST: usize = 20;
 
-/// Mean absolute errors of one group of a split, by channel. There is no interval, because an interval needs several groups.
+/// Mean absolute errors of the samples of one group of a split, one per channel. An interval would need several groups.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GroupErrors {
     /// Name of the group.
     pub group: String,
-    /// Errors by channel.
+    /// Errors of the group, one per channel.
     pub errors: Vec<GroupError>,
 }
 
-/// Mean absolute error of one channel in one group.
+/// Mean absolute error of one channel over the samples of one group.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GroupError {
-    /// Channel: `Fz`.
+    /// Name of the channel: `Fz`.
     pub channel: String,
     /// Symbol of the unit of the error.
     pub unit: String,
-    /// Number of samples.
+    /// Number of samples of the group with a truth and a prediction.
     pub n: u64,
     /// Mean absolute error, in `unit`.
     pub mae: f64,
 }
 
-/// Sum and number of absolute errors.
+/// Running sum and number of absolute prediction errors.
 #[derive(Clone, Copy, Debug, Default)]
 struct Errors {
     sum: f64,
@@ -50,8 +50,8 @@ impl Errors {
     }
 }
 
-/// Mean absolute errors of each group in the column `group` of `samples`, for channels with a score `mae` of the same samples. Empty for
-/// one group, or more than 20.
+/// Mean absolute errors of each group in the column `group`. Covers the channels of which `scores` has a score `mae` over the same samples. Empty
+/// unless `samples` has 2 to 20 groups.
 ///
 /// ```
 /// use taceva_results::{Samples, group_errors};

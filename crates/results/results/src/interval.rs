@@ -2,20 +2,20 @@
 
 use taceva_metrics::Scale;
 
-/// Confidence interval of 95 %, or the reason for its absence.
+/// Confidence interval of a score, at 95 %, or the reason for its absence.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Interval {
-    /// Both ends and their method.
+    /// Both ends of an interval, and the method that computed them.
     Ends {
         /// Lower and upper end, in the unit of the score.
         ends: [f64; 2],
-        /// Method: `jackknife by point_id, G=32`.
+        /// Method, with the number `G` of clusters: `jackknife by point_id, G=32`.
         method: String,
-        /// Standard error behind the ends, in the unit of the score; `None` if the result does not state it.
+        /// Standard error from which the ends were computed, in the unit of the score; `None` if the result does not state it.
         standard_error: Option<f64>,
         /// Number of clusters; `None` if the result does not state it.
         clusters: Option<u64>,
-        /// Degrees of freedom of Student's t; `None` if the result does not state them.
+        /// Degrees of freedom of the Student's t quantile of the ends; `None` if the result does not state them.
         degrees_of_freedom: Option<f64>,
     },
     /// No interval, with the reason.
@@ -37,7 +37,7 @@ impl Interval {
         }
     }
 
-    /// Both ends; `None` without an interval.
+    /// Lower and upper end, in the unit of the score; `None` without an interval.
     pub fn ends(&self) -> Option<[f64; 2]> {
         match self {
             Interval::Ends { ends, .. } => Some(*ends),
@@ -45,7 +45,7 @@ impl Interval {
         }
     }
 
-    /// Method in words; `None` without an interval.
+    /// Method that computed the interval, in words; `None` without an interval.
     pub fn method(&self) -> Option<&str> {
         match self {
             Interval::Ends { method, .. } => Some(method),
@@ -53,7 +53,7 @@ impl Interval {
         }
     }
 
-    /// Degrees of freedom of Student's t; `None` if the result does not state them.
+    /// Degrees of freedom of the Student's t quantile of the ends; `None` if the result does not state them.
     pub fn degrees_of_freedom(&self) -> Option<f64> {
         match self {
             Interval::Ends {
@@ -63,7 +63,7 @@ impl Interval {
         }
     }
 
-    /// Scale of the interval, parsed from the words of its method.
+    /// Scale on which the interval was computed, such as logarithmic, parsed from the words of its method.
     pub fn scale(&self) -> Scale {
         const SCALES: [Scale; 4] = [Scale::Logarithm, Scale::Logit, Scale::Cut, Scale::Wilson];
         let method = self.method().unwrap_or_default();
@@ -86,7 +86,7 @@ impl Interval {
     }
 }
 
-/// Method of an interval in words for readers, for a score of `n` samples. States `n` if the groups contain several independent samples.
+/// Text for readers about the `method` of an interval. If `n` independent samples were put into fewer groups, the text states both numbers.
 ///
 /// ```
 /// use taceva_results::described_method;

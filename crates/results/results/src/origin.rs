@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-/// Sentence for every output about samples from these `sources`; `None` if no source is `simulated`, `synthetic` or `several`.
+/// Warning that some or all samples from `sources` are not measured. `None` if no source is `simulated`, `synthetic` or `several`.
 ///
 /// A source is a value of [`Subject::source`](crate::Subject). One simulated or emulated device makes a whole recording `simulated`.
 ///

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use taceva_core::{Date, PressOutcome, Traceability};
 
-/// Text in each note about optimistic scores: the training part contained neighbours or copies of test samples.
+/// Text in each note that warns of optimistic scores, because the training part contained neighbours or copies of test samples.
 ///
 /// ```
 /// let note = "3 of 9 pictures of the test part are in the fit too: the scores are optimistic";
@@ -21,54 +21,54 @@ pub const OPTIMISTIC: &str = "the scores are optimistic";
 pub struct Provenance {
     /// Version of TacEva.
     pub taceva: String,
-    /// Digest of the dataset; `None` without a common dataset.
+    /// Digest of the dataset. `None` without a dataset, or if the results joined here have different datasets.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dataset: Option<String>,
-    /// Recordings joined for the result, in the order of the command; empty for a single recording.
+    /// Recordings whose samples were joined for the result, in the order of the command line; empty for a single recording.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub recordings: Vec<RecordingProvenance>,
-    /// View of the frames, for samples with several pictures: `left`, or `left+right` side by side; `None` for other samples.
+    /// View of the frames, if each sample has several pictures: `left`, or `left+right` side by side. `None` for other samples.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub view: Option<String>,
-    /// Digests of the tables by name, for results without a dataset.
+    /// Digest of each input table by the name of the table, for results without a dataset.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub tables: BTreeMap<String, String>,
     /// Model with its digest; `None` if no model was fitted or named.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<ModelProvenance>,
-    /// Split of the samples; `None` without a split.
+    /// Split of the samples into parts, as text such as `by-point 70/20/10`; `None` without a split.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub split: Option<String>,
-    /// Sentence about neighbouring samples that resemble each other, and about their division into parts.
+    /// Sentence that states if samples recorded one after another resemble each other, and if the split separates them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub neighbours: Option<String>,
-    /// Seed of all random choices; `None` without a common seed.
+    /// Seed of all random choices. `None` without a seed, or if the results joined here have different seeds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seed: Option<u64>,
-    /// Scored part: `test`, `all`, …; `None` without a common part.
+    /// Scored part of the split: `test`, `all`, …. `None` if the results joined here have different parts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub part: Option<String>,
     /// Number of samples in each part, if there is a split.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub samples: BTreeMap<String, usize>,
-    /// Phase of the protocol in which each metric was scored, by metric; empty without a protocol.
+    /// Phase of the protocol in which a metric was scored, by name of the metric; empty without a protocol.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub phases: BTreeMap<String, String>,
-    /// Number of presses by outcome, by digest of the recording; empty without a protocol.
+    /// For each recording, by its digest, the number of presses by outcome; empty without a protocol.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub presses: BTreeMap<String, BTreeMap<PressOutcome, u64>>,
-    /// Instruments of the labels with their certificates, over all recordings.
+    /// Instruments that measured the labels, with their certificates, over all recordings.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub traceability: Vec<Traceability>,
-    /// Settings of the devices that made the recordings, such as `force_rate_hz`; for several recordings, settings that are equal in all.
+    /// Settings of the recording devices, such as `force_rate_hz`. For several recordings, only the settings that are equal in all.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub devices: BTreeMap<String, String>,
-    /// UTC day of the last recording that has instruments; `None` without such a recording.
+    /// Latest UTC day of a recording whose instruments are known; `None` without such a recording.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recorded_on: Option<Date>,
-    /// Number of frames behind the result, counted once for training and once for prediction. Frames behind cached features count too.
+    /// Number of frames that training and prediction used, each with its own count. Frames whose features came from a cache count too.
     pub frames_decoded: u64,
-    /// Third-party plugins behind the result.
+    /// Third-party plugins that took part in computing the result.
     pub plugins: Vec<String>,
     /// Digest of the table of samples written next to the result; `None` without this table.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -76,7 +76,7 @@ pub struct Provenance {
     /// Accepted manual edits of the inputs: file, date, reason and digests.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub edits: Vec<String>,
-    /// Notes for readers.
+    /// Notes on the result for its readers.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
 }
@@ -91,7 +91,7 @@ impl Provenance {
         counts
     }
 
-    /// Provenance of a combined result: the common values, and the inputs of both results.
+    /// Provenance of a result combined from both: settings and digests that are equal in both, and the recordings, tables and notes of either.
     #[must_use]
     pub fn joined(mut self, other: &Provenance) -> Provenance {
         let same = |own: Option<String>, other: &Option<String>| {
@@ -156,26 +156,26 @@ impl Provenance {
     }
 }
 
-/// Model behind a result.
+/// Model whose predictions were scored.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModelProvenance {
-    /// Name: `ridge`.
+    /// Name of the model: `ridge`.
     pub name: String,
-    /// Settings, including the settings that the fit chose.
+    /// Settings of the model, including the settings that the fit chose.
     pub settings: BTreeMap<String, String>,
-    /// Digest of the model file; `unknown` for a model in the caller's program.
+    /// Digest of the model file; `unknown` if the caller's program keeps the model.
     pub digest: String,
     /// Digest of the training dataset; `unknown` for a model fitted by another program.
     pub fitted_on: String,
     /// Setting that the fit chose, and the method: `strength with each training sample left out in turn`; `None` without a choice.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chosen_by: Option<String>,
-    /// `given` if the model is in the caller's program and only its predictions were used.
+    /// `given` if the caller passed only the predictions of the model; otherwise `None`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub origin: Option<String>,
 }
 
-/// One of several recordings behind a result.
+/// One of several recordings whose samples were joined for a result.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RecordingProvenance {
     /// Prefix of the names of the samples and contact points in the recording.

@@ -12,19 +12,19 @@ use crate::seeds::OverSeeds;
 use crate::subject::Subject;
 use crate::task::StudyTask;
 
-/// Schema of one evaluation report.
+/// Schema of the JSON of one evaluation report.
 ///
 /// Unreleased versions wrote `taceva.evaluation/1` and 1.1 to 1.4. The next schema is 1.5.
 pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1.0";
 
-/// Scores of one sensor, with subject and provenance.
+/// Scores of one sensor, with the description of the sensor and the provenance of the scores.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EvaluationReport {
     /// Schema of the report: [`EVALUATION_SCHEMA`].
     pub schema: String,
     /// Evaluated sensor.
     pub subject: Subject,
-    /// Scores in catalogue order.
+    /// Scores in the order of the metric catalogue.
     #[serde(rename = "metrics", with = "by_metric")]
     pub scores: Vec<Score>,
     /// Skipped metrics with their reasons.
@@ -36,16 +36,16 @@ pub struct EvaluationReport {
     /// Scores of each recording; empty unless several recordings were joined.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub by_recording: Vec<RecordingScores>,
-    /// Errors of each group that the split keeps together; empty unless a column names at most 20 groups.
+    /// Errors of each group that the split keeps together. Empty unless a column of the dataset names 2 to 20 groups.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub by_group: Vec<GroupErrors>,
-    /// Scores with other training seeds; `None` if not requested.
+    /// Scores of the same model fitted with further training seeds; `None` if not requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub over_seeds: Option<OverSeeds>,
     /// Scores of tasks, such as slip; empty unless the scene requests a task.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tasks: Vec<StudyTask>,
-    /// Samples behind the scores, if available. The JSON omits these samples.
+    /// Table of the samples behind the scores; `None` without a table. The JSON does not contain this table.
     #[serde(skip)]
     pub samples: Option<Samples>,
 }
@@ -53,20 +53,20 @@ pub struct EvaluationReport {
 /// Scores from the samples of one of several recordings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RecordingScores {
-    /// Name of the recording in the provenance.
+    /// Name of the recording, as in the provenance.
     pub recording: String,
     /// Digest of the recording.
     pub digest: String,
     /// Number of scored samples in the recording.
     pub samples: usize,
-    /// Scores of predictions, with intervals by the contact points of the recording.
+    /// Scores of the metrics that use predictions, with intervals by the contact points of the recording.
     #[serde(rename = "metrics", with = "by_metric")]
     pub scores: Vec<Score>,
     /// Skipped metrics with their reasons.
     pub skipped: Vec<Skip>,
 }
 
-/// Skipped metric or stage with its reason.
+/// Skipped metric or stage of an evaluation, with the reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Skip {
     /// Skipped item: `metric:r_light`.
@@ -85,7 +85,7 @@ impl From<&Skipped> for Skip {
 }
 
 impl EvaluationReport {
-    /// Report of `evaluation`, for one recording and without samples.
+    /// Report of `evaluation` for one recording, without the table of samples.
     pub fn new(
         subject: Subject,
         evaluation: &Evaluation,
@@ -105,7 +105,7 @@ impl EvaluationReport {
         }
     }
 
-    /// Report of numbers in memory, for an unknown sensor.
+    /// Report of an `evaluation` of arrays in memory, for an unknown sensor.
     pub fn of_arrays(evaluation: &Evaluation) -> EvaluationReport {
         let provenance = Provenance {
             taceva: env!("CARGO_PKG_VERSION").to_owned(),

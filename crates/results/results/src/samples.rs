@@ -11,7 +11,7 @@ use taceva_core::{Channel, Column, Unit, shown};
 
 use crate::formula::{escape_csv, unescape_csv};
 
-/// Names of text columns.
+/// Names of the text columns in a table of samples.
 const WORDS: [&str; 12] = [
     Samples::KEY,
     "recording",
@@ -26,7 +26,7 @@ const WORDS: [&str; 12] = [
     Samples::GROUP,
     Samples::FOLD,
 ];
-/// Names of numeric columns other than channels.
+/// Names of the numeric columns in a table of samples that are not channels.
 const NUMBERS: [&str; 7] = [
     "depth_step",
     "repeat",
@@ -36,15 +36,15 @@ const NUMBERS: [&str; 7] = [
     Samples::ZERO_U,
     "intensity",
 ];
-/// Suffix of columns with unclipped predictions, before limiting to the bounds of the model.
+/// Suffix of columns with unclipped predictions, which may exceed the bounds of the model.
 const UNBOUNDED: &str = "_predicted_unbounded";
 
-/// Samples in columns: `sample`, covariates, and truth and prediction of each channel.
+/// Table of samples with the columns `sample` (name), covariates, and the truth and prediction of each channel.
 ///
 /// # Shapes
 /// Each column has one optional value per sample.
 /// # Units
-/// Channels in their own unit; `t_s` in s; spacings and `zero_u_mm` in mm; `intensity` in grey levels, 0 to 255.
+/// Channels in their own units; `t_s` in s; spacings and `zero_u_mm` in mm; `intensity` in grey levels, 0 to 255.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Samples {
     rows: usize,
@@ -58,7 +58,7 @@ enum SampleColumn {
     Numbers(Column),
 }
 
-/// Truth and prediction of one channel.
+/// Truth and prediction of one channel, each with one optional value per sample.
 #[derive(Clone, Copy, Debug)]
 pub struct SampleChannel<'a> {
     /// Name of the channel.
@@ -75,10 +75,10 @@ pub enum SamplesError {
     /// Invalid CSV, or a row whose length differs from the header.
     #[error("samples: {0}")]
     Csv(#[from] csv::Error),
-    /// A cell that is not a finite number.
+    /// A cell of a numeric column is neither empty nor a finite number.
     #[error("samples, line {line}, column `{column}`: expected a finite number, found `{found}`")]
     Cell {
-        /// Line, from 1.
+        /// Line of the cell in the file, from 1.
         line: u64,
         /// Name of the column.
         column: String,
@@ -93,16 +93,16 @@ pub enum SamplesError {
 impl Samples {
     /// Name of the column with sample names, in all tables that this program writes.
     pub const KEY: &'static str = "sample";
-    /// Name of the column with the groups that a split keeps together.
+    /// Name of the column with the group of each sample, which a split keeps in one part.
     pub const GROUP: &'static str = "group";
-    /// Name of the column with fold numbers, from 1. Each fold was predicted by its own model.
+    /// Name of the column with fold numbers, from 1. Each fold is predicted by a model that was fitted without this fold.
     pub const FOLD: &'static str = "fold";
-    /// Name of the column with the standard uncertainty of the height from which the depth of a sample is measured, in mm.
+    /// Name of the column with the standard uncertainty of the zero height, in mm. The depth of a sample is measured from this height.
     pub const ZERO_U: &'static str = "zero_u_mm";
     /// Suffix of the columns with predictions.
     pub const PREDICTED: &'static str = "_predicted";
 
-    /// Samples called `ids`, from the recordings in these folders.
+    /// Creates a table with the names `ids` of samples, from recordings in the folders `recordings`.
     pub fn new(ids: Vec<Option<String>>, recordings: Vec<PathBuf>) -> Samples {
         Samples {
             rows: ids.len(),
@@ -111,7 +111,7 @@ impl Samples {
         }
     }
 
-    /// The same samples with only the truths and predictions of these channels.
+    /// Keeps only the truths and predictions of the channels called `names`.
     pub(crate) fn of_channels(mut self, names: &[&str]) -> Samples {
         self.columns.retain(|(column, values)| {
             let channel = column.strip_suffix(UNBOUNDED).unwrap_or(column);
@@ -123,25 +123,25 @@ impl Samples {
         self
     }
 
-    /// The same samples with these folders of recordings.
+    /// Replaces the folders of the recordings with `recordings`.
     #[must_use]
     pub fn with_recordings(self, recordings: Vec<PathBuf>) -> Samples {
         Samples { recordings, ..self }
     }
 
-    /// Adds a text column: words, or covariates as text.
+    /// Adds a text column called `name`, with one text per sample.
     pub fn push_words(&mut self, name: &str, words: Vec<Option<String>>) {
         self.columns
             .push((name.to_owned(), SampleColumn::Words(words)));
     }
 
-    /// Adds a column with the protocol part of each sample, after `sample`.
+    /// Adds the column `protocol` after `sample`. Each cell names the protocol parts of a sample, separated by spaces.
     pub fn insert_protocol(&mut self, parts: Vec<Option<String>>) {
         let column = ("protocol".to_owned(), SampleColumn::Words(parts));
         self.columns.insert(1.min(self.columns.len()), column);
     }
 
-    /// Adds a numeric column: the truth of a channel, or a covariate.
+    /// Adds a numeric column called `name`: the truth of a channel, or a covariate.
     pub fn push_numbers(&mut self, name: &str, numbers: Column) {
         self.columns
             .push((name.to_owned(), SampleColumn::Numbers(numbers)));
@@ -155,13 +155,12 @@ impl Samples {
         );
     }
 
-    /// Adds the unclipped predictions of `channel`. Without this column, predictions and unclipped predictions are equal.
+    /// Adds the unclipped predictions of `channel`. Without this column, no prediction counts as clipped.
     pub fn push_unbounded(&mut self, channel: &Channel, numbers: Column) {
         self.push_numbers(&format!("{}{UNBOUNDED}", channel.name()), numbers);
     }
 
-    /// Reads a table with a header: `sample` (or `id`), covariates, and for each channel its truth under its name and its prediction under
-    /// `<name>_predicted`.
+    /// Reads a CSV table with a header. The columns are `sample` (or `id`), covariates, and for each channel `<name>` (truth) and `<name>_predicted`.
     ///
     /// ```
     /// use taceva_results::Samples;
@@ -210,7 +209,7 @@ impl Samples {
         Ok(samples)
     }
 
-    /// Writes a table that [`Samples::read`] reads, with numbers in shortest round-trip form.
+    /// Writes a CSV table that [`Samples::read`] reads. Each number has the fewest digits from which it is read back exactly.
     ///
     /// # Errors
     /// I/O errors of `out`.
@@ -232,7 +231,7 @@ impl Samples {
         writer.flush()
     }
 
-    /// Folders of the recordings, in the order of joining; empty for tables without recordings.
+    /// Folders of the recordings, in the order in which the recordings were joined; empty for a table without recordings.
     pub fn recordings(&self) -> &[PathBuf] {
         &self.recordings
     }
@@ -272,7 +271,7 @@ impl Samples {
         })
     }
 
-    /// Unclipped prediction of `channel` for a sample; the prediction itself without a column of unclipped predictions.
+    /// Unclipped prediction of `channel` for the sample at index `row`; the prediction itself if the table has no column of unclipped predictions.
     pub fn unbounded(&self, channel: &str, row: usize) -> Option<f64> {
         match self.numbers(&format!("{channel}{UNBOUNDED}")) {
             Some((_, numbers)) => numbers.get(row),
@@ -291,7 +290,7 @@ impl Samples {
         }
     }
 
-    /// Text of a sample in a column; `None` for an empty cell, a numeric column or a missing column.
+    /// Text in `column` for the sample at index `row`; `None` for an empty cell, a numeric column or a missing column.
     pub fn word(&self, column: &str, row: usize) -> Option<&str> {
         match &self.column(column)?.1 {
             SampleColumn::Words(words) => {
@@ -301,7 +300,7 @@ impl Samples {
         }
     }
 
-    /// Number of a sample in a column; `None` for an empty cell, a text that is not a number, or a missing column.
+    /// Number in `column` for the sample at index `row`; `None` for an empty cell, a text that is not a number, or a missing column.
     pub fn number(&self, column: &str, row: usize) -> Option<f64> {
         match &self.column(column)?.1 {
             SampleColumn::Numbers(numbers) => numbers.get(row),
@@ -309,7 +308,7 @@ impl Samples {
         }
     }
 
-    /// Rows of a protocol part; all rows if the table names no parts.
+    /// Indices of the rows that belong to the protocol part `part`; all rows if the table has no column `protocol`.
     pub fn of_protocol(&self, part: &str) -> Vec<usize> {
         let is_of = |row: &usize| {
             let parts = self.word("protocol", *row);
@@ -334,22 +333,22 @@ impl<'a> SampleChannel<'a> {
         self.rows
     }
 
-    /// Reading of the reference instrument for a sample, in the unit of the channel; `None` if missing.
+    /// Reading of the reference instrument for the sample at index `row`, in the unit of the channel; `None` if missing.
     pub fn truth(&self, row: usize) -> Option<f64> {
         self.truth?.get(row)
     }
 
-    /// Prediction for a sample, in the unit of the channel; `None` if missing.
+    /// Prediction for the sample at index `row`, in the unit of the channel; `None` if missing.
     pub fn prediction(&self, row: usize) -> Option<f64> {
         self.prediction?.get(row)
     }
 
-    /// Truth and prediction of a sample; `None` if either is missing.
+    /// Truth and prediction of the sample at index `row`, in the unit of the channel; `None` if either is missing.
     pub fn pair(&self, row: usize) -> Option<[f64; 2]> {
         Some([self.truth(row)?, self.prediction(row)?])
     }
 
-    /// Existing true values in the order of samples.
+    /// True values in the order of samples, without missing values.
     pub fn truths(self) -> impl Iterator<Item = f64> + 'a {
         (0..self.rows).filter_map(move |row| self.truth(row))
     }
@@ -359,7 +358,7 @@ impl<'a> SampleChannel<'a> {
         (0..self.rows).any(|row| self.prediction(row).is_some())
     }
 
-    /// Unit of a channel by its name; 1 for an unknown channel.
+    /// Unit of the channel, from its name; [`Unit::One`] for an unknown name.
     pub fn unit(&self) -> Unit {
         let six = [
             Channel::PX,

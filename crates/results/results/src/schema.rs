@@ -1,4 +1,4 @@
-//! Schemas and seals of results, with reading and writing.
+//! Reads and writes results as sealed JSON with a schema.
 
 use std::borrow::Cow;
 
@@ -9,10 +9,10 @@ use taceva_core::shown;
 use crate::error::ResultsError;
 use crate::report::{EVALUATION_SCHEMA, EvaluationReport};
 
-/// Schema of the evaluations of a scene, with the same versions as [`EVALUATION_SCHEMA`].
+/// Schema of the JSON of all evaluations of a scene, with the same version numbers as [`EVALUATION_SCHEMA`].
 pub const RUN_SCHEMA: &str = "taceva.run/1.0";
 
-/// Evaluations of the studies of a scene.
+/// Evaluation reports of a scene, one per study.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunReport<'a> {
     /// Schema of the report: [`RUN_SCHEMA`].
@@ -22,7 +22,7 @@ pub struct RunReport<'a> {
 }
 
 impl<'a> RunReport<'a> {
-    /// Report of a run.
+    /// Creates the report of a run from the reports of its studies.
     pub fn new(studies: &'a [EvaluationReport]) -> RunReport<'a> {
         RunReport {
             schema: Cow::Borrowed(RUN_SCHEMA),
@@ -91,12 +91,12 @@ pub fn sealed(report: &impl Serialize) -> Result<String, ResultsError> {
     Ok(taceva_files::seal::json::seal(&text)?)
 }
 
-/// Remedy for an evaluation report of another version.
+/// Remedy if another version of TacEva wrote an evaluation report.
 const EVALUATE_AGAIN: &str = "run `taceva evaluate …` again with this version";
-/// Remedy for a run report of another version. Presses on a real rig are not repeated for their scores.
+/// Remedy if another version of TacEva wrote a run report. New scores need no new presses on a real rig.
 const RUN_AGAIN: &str = "run `taceva run …` again with this version, or without new presses `taceva evaluate` on each of its recordings";
 
-/// Schema of a text, and the version that wrote the text.
+/// Parts of a JSON text that state its schema and the version of TacEva that wrote it.
 #[derive(Default, Deserialize)]
 struct Head {
     schema: Option<serde_json::Value>,
@@ -120,7 +120,7 @@ impl Head {
     }
 }
 
-/// Parses `text`. An error names the path of the unexpected value.
+/// Parses `text` as JSON. An error names the path of the unexpected value.
 fn place_named<T: DeserializeOwned>(text: &str) -> Result<T, ResultsError> {
     let mut json = serde_json::Deserializer::from_str(text);
     serde_path_to_error::deserialize(&mut json).map_err(|error| ResultsError::Place {

@@ -15,52 +15,52 @@ use crate::value::Value;
 /// Score of a metric on a channel or plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Score {
-    /// Metric: `mae`.
+    /// Name of the metric: `mae`.
     pub metric: String,
-    /// Channel or plane: `Fz`, `Pxy`.
+    /// Name of the channel or plane: `Fz`, `Pxy`.
     pub channel: String,
-    /// Value, in `unit`.
+    /// Value of the score, in `unit`.
     pub value: Value,
     /// Unit of value and interval.
     pub unit: Unit,
-    /// Number of samples.
+    /// Number of samples from which the score was computed.
     pub n: u64,
-    /// Number of samples ignored for an unusable number.
+    /// Number of samples skipped because a value is NaN or too large.
     pub n_invalid: u64,
-    /// Interval of 95 %; `None` for scores without a meaningful interval.
+    /// Interval at 95 %; `None` if the value is not a single number, or was given without an interval.
     pub interval: Option<Interval>,
-    /// Name and version of the definition: `mae/1`.
+    /// Name and version of the metric's definition: `mae/1`.
     pub definition: String,
-    /// Constants of the definition by name.
+    /// Constants of the metric's definition, by name.
     pub parameters: Vec<(String, f64)>,
-    /// Counts of the computation, by name.
+    /// Counts that the computation reports, such as bins with a value, by name.
     pub counts: Vec<(String, u64)>,
-    /// Warnings: `one bin`.
+    /// Warnings about the score: `one bin`.
     pub flags: Vec<String>,
-    /// Standing in verdicts.
+    /// Standing: tells if the score takes part in verdicts, and if not, the reason.
     pub standing: Standing,
-    /// Share of predictions beyond the bounds of the model; `None` without predictions or bounds.
+    /// Share of predictions that exceed the bounds of the model before clipping, from 0 to 1; `None` without predictions or bounds.
     pub bounded_share: Option<f64>,
-    /// Source channels; empty for a single channel.
+    /// Channels from which the score of a plane was computed; empty for a single channel.
     pub of: Vec<String>,
-    /// Further values of the same metric and channel.
+    /// Further values of the same metric and channel, such as the slope of a fit.
     pub variants: Vec<Variant>,
 }
 
-/// Further value of the same metric and channel.
+/// Further value of a score, such as the slope of a fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variant {
-    /// Name: `slope`, `map`.
+    /// Name of the variant: `slope`, `map`.
     pub name: String,
-    /// Value, in `unit`.
+    /// Value of the variant, in `unit`.
     pub value: Value,
     /// Unit of value and interval.
     pub unit: Unit,
-    /// Interval of 95 %; `None` for values without a meaningful interval.
+    /// Interval at 95 %; `None` if the value is not a single number, or has no interval.
     pub interval: Option<Interval>,
 }
 
-/// Scores of `evaluation`, in its order.
+/// Scores of `evaluation`, in the order of the evaluation.
 pub fn scores(evaluation: &Evaluation) -> Vec<Score> {
     let all = evaluation.scores();
     all.map(|(metric, channel, score)| Score::of(metric, channel, score))
@@ -89,7 +89,7 @@ impl Score {
         }
     }
 
-    /// Score of a single number, without interval and samples.
+    /// Score with the single number `value`, without an interval and with 0 samples.
     pub fn of_number(metric: &str, channel: &str, value: f64, unit: Unit) -> Score {
         Score {
             metric: metric.to_owned(),
@@ -115,15 +115,15 @@ impl Score {
         self.variants.iter().find(|variant| variant.name == name)
     }
 
-    /// Variant that decides verdicts, for metrics whose value depends on noise or on the number of repeats. `None` if the value itself
-    /// decides, or if the result has no number of the variant.
+    /// Variant on which verdicts rest, for metrics whose value depends on noise or on the number of repeats. `None` if verdicts rest on the value
+    /// itself, or if the variant has no number.
     pub fn decided_by(&self) -> Option<&Variant> {
         let name = catalogue::find(&self.metric)?.decided_by?;
         let variant = self.variant(name)?;
         variant.value.number().map(|_| variant)
     }
 
-    /// Score for verdicts, with value, unit and interval of the deciding variant, or else of the score itself.
+    /// Score on which verdicts rest. Value, unit and interval come from [`decided_by`](Score::decided_by), if there is such a variant.
     #[must_use]
     pub fn deciding(&self) -> Score {
         match self.decided_by() {
@@ -137,7 +137,7 @@ impl Score {
         }
     }
 
-    /// Standing of the score, or of its variant called `variant`. Reference constants always count.
+    /// Standing in verdicts of the score, or of its variant called `variant`. Reference constants always count.
     pub fn standing_of(&self, variant: Option<&str>) -> Standing {
         match variant {
             Some("of_constant" | "constant") => Standing::Counts,
@@ -145,7 +145,7 @@ impl Score {
         }
     }
 
-    /// Direction of better values; `Described` for metrics outside the catalogue.
+    /// Direction in which values of the metric get better; `Described` for metrics outside the catalogue.
     pub fn better(&self) -> Better {
         catalogue::find(&self.metric).map_or(Better::Described, |metric| metric.better)
     }

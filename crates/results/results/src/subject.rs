@@ -1,11 +1,11 @@
-//! Subject of an evaluation.
+//! Subject of an evaluation: the sensor.
 
 use serde::{Deserialize, Serialize};
 
-/// Sensor behind a result, with the origin of its samples.
+/// Sensor whose samples were evaluated, with the origin of the samples.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Subject {
-    /// Sensor model.
+    /// Name of the sensor model: `DIGIT`.
     pub sensor: String,
     /// Serial number of the unit, or `unknown`.
     #[serde(default = "unknown")]

@@ -1,9 +1,9 @@
-//! Scores of tasks that a study measured in addition to the scores of its channels.
+//! Scores of tasks, such as slip detection, which a study computes in addition to the scores of channels.
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// Scores of one task, in the form of a task of `taceva.tasks/1.1`.
+/// Scores of one task, as JSON in the schema `taceva.tasks/1.1`.
 ///
 /// ```
 /// use taceva_results::StudyTask;
@@ -19,7 +19,7 @@ use serde_json::Value;
 #[serde(transparent)]
 pub struct StudyTask(Value);
 
-/// A score of a task without a variant.
+/// Score of a task, as opposed to a variant of a score.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TaskNumber<'a> {
     /// Name of the metric.
@@ -28,9 +28,9 @@ pub struct TaskNumber<'a> {
     pub unit: &'a str,
     /// The score; `None` if it is undefined.
     pub value: Option<f64>,
-    /// 95 % interval by cluster, if there is an interval.
+    /// Interval at 95 % by cluster; `None` without an interval.
     pub interval: Option<[f64; 2]>,
-    /// Score of the best constant prediction, if a constant has a score.
+    /// Score of the best constant prediction; `None` if the metric has no such score.
     pub of_constant: Option<f64>,
     /// Number of samples.
     pub n: u64,
@@ -39,7 +39,7 @@ pub struct TaskNumber<'a> {
 }
 
 impl StudyTask {
-    /// Scores of a task as JSON.
+    /// Creates the scores of a task from their JSON.
     pub fn new(task: Value) -> StudyTask {
         StudyTask(task)
     }
@@ -55,7 +55,7 @@ impl StudyTask {
         notes.into_iter().flatten().filter_map(Value::as_str)
     }
 
-    /// Scores of the task as a whole, without variants and single classes.
+    /// Scores of the task as a whole, without variants and without scores of single classes.
     pub fn scores(&self) -> impl Iterator<Item = TaskNumber<'_>> {
         let scores = self.0["scores"].as_array().into_iter().flatten();
         let own = scores.filter(|score| score["variant"].is_null());

@@ -9,13 +9,13 @@ pub enum Value {
     Number(f64),
     /// One number per place of the sensing surface.
     Map(Map),
-    /// One number per level of another quantity.
+    /// One number per level of another quantity, such as the force.
     Curve(Curve),
-    /// One number per pair of names.
+    /// One number per pair of a row name and a column name.
     Matrix(Matrix),
-    /// The samples determine no value, for this reason.
+    /// The value is undefined for the given samples. Contains the reason.
     Undefined(String),
-    /// The metric does not apply, for this reason.
+    /// The metric does not apply. Contains the reason.
     NotApplicable(String),
 }
 

@@ -14,14 +14,14 @@ use super::{library, run};
 use crate::report::Outcome;
 use crate::trial::NO_DEVICE;
 
-/// Part of the message for a device that fails to open.
+/// Text in the message of a check whose device failed to open.
 const NOT_OPENED: &str = ": cannot open the device: ";
 
-/// Outcome of an attempt.
+/// Outcome of one attempt to run a check.
 #[derive(Debug)]
 pub(super) struct Attempt {
     pub(super) outcome: Outcome,
-    /// Call of the plugin that exceeded the time limit, so that the child was killed; `None` if none did.
+    /// Plugin call that exceeded the time limit, after which the child was killed; `None` if no call did.
     pub(super) hung_in: Option<String>,
 }
 
@@ -34,7 +34,7 @@ impl From<Outcome> for Attempt {
     }
 }
 
-/// Runs one or several checks in a child process.
+/// Runs the checks of `probe` in a child process, which is killed after `limit`.
 pub(super) fn attempt(examination: &Examination<'_>, probe: &Probe, limit: Duration) -> Attempt {
     let call = Arc::new(Mutex::new(String::new()));
     let order = ExaminationOrder {
@@ -84,7 +84,7 @@ pub(super) fn attempt(examination: &Examination<'_>, probe: &Probe, limit: Durat
     Attempt { outcome, hung_in }
 }
 
-/// Log that writes the pending call of a check to `call`.
+/// Creates a log that stores the name of the pending plugin call in `call`.
 fn noting(call: &Arc<Mutex<String>>) -> Log {
     let call = Arc::clone(call);
     Box::new(move |_, target, message| {
@@ -94,7 +94,7 @@ fn noting(call: &Arc<Mutex<String>>) -> Log {
     })
 }
 
-/// Call of the plugin that exceeded the time limit, so that the child was killed; `None` for other errors.
+/// Plugin call that exceeded the time limit, taken from the error of the killed child; `None` for other errors.
 fn call_of(error: &ChildError) -> Option<String> {
     match error {
         ChildError::Gone {
@@ -105,7 +105,7 @@ fn call_of(error: &ChildError) -> Option<String> {
     }
 }
 
-/// Error of a check whose process was killed. Adds the name of the hanging call, if known.
+/// Adds the name of the hanging call to the error of a killed child. Leaves the error unchanged if the name is unknown.
 fn with_call(error: ChildError, call: &str) -> ChildError {
     match error {
         ChildError::Gone {

@@ -1,4 +1,4 @@
-//! Promises of the table of a changer, tested with item names that a host would never pass.
+//! Promises of the function table of a changer, tested with item names that a host would never pass.
 
 #![expect(
     unsafe_code,
@@ -21,7 +21,7 @@ pub(super) const CHECKS: &[Check] = &[
     OF.check("changer/nobody-takes-the-name", nobody_takes),
 ];
 
-/// Names of the changer's items. Skips the promise if there are none.
+/// Names of the changer's items. Skips the promise if the changer has no items.
 fn holds(subject: &Subject) -> Result<Vec<String>, Unmet> {
     let session = &subject.session;
     let changer = subject.opened(session.changer(subject.key()?, &subject.args()?))?;
@@ -33,7 +33,7 @@ fn holds(subject: &Subject) -> Result<Vec<String>, Unmet> {
 
 type Bare = taceva_host::bare::Opened<abi::ChangerCalls>;
 
-/// Calls `bring` directly, because the host would reject unknown names before the call.
+/// Calls the plugin's function `bring` directly, because the host would reject unknown names before the call.
 fn bare_bring(changer: &Bare, name: abi::Text, take: abi::TakeText) -> Result<(), DriverError> {
     let bring = changer.handle.needs(changer.calls.bring, "bring")?;
     let mut taken = Taken::default();

@@ -1,4 +1,4 @@
-//! Compares the stamps of a real device with the clock of this machine. Stamps in another unit fail this comparison.
+//! Compares the time stamps of a real device with the clock of this machine. The comparison detects stamps in a wrong unit.
 
 use std::time::{Duration, Instant};
 
@@ -19,10 +19,10 @@ pub(super) const CHECKS: &[Check] = &[
     }),
 ];
 
-/// Least duration of one comparison; the next constant is its least number of items.
+/// Least duration of one comparison of stamps. A comparison also needs at least `COMPARED_MIN` items.
 const COMPARED: Duration = Duration::from_millis(250);
 const COMPARED_MIN: usize = 4;
-/// Number of comparisons, of which one must agree: a busy machine may delay items in the other comparisons.
+/// Greatest number of comparisons. One comparison must agree, because a busy machine may delay items in the others.
 const COMPARISONS: usize = 4;
 
 /// The stamps of a real device advance like the clock of this machine.

@@ -38,7 +38,7 @@ pub(super) const CHECKS: &[Check] = &[
     OF.check("driver/memory-of-10000-openings", memory),
 ];
 
-/// Open device of any kind, kept only to be dropped.
+/// Open device of any kind. A check keeps the device only to close it.
 enum Device {
     Sensor(Opened<abi::SensorCalls>),
     Robot(Opened<abi::RobotCalls>),
@@ -84,7 +84,7 @@ fn describes_twice(subject: &Subject) -> Result<(), Unmet> {
     })
 }
 
-/// For each argument at its limits, the driver returns its description or reports contradictory arguments.
+/// With each argument at its least and greatest value, the driver returns its description, or rejects the combination of arguments.
 fn describes_every_argument(subject: &Subject) -> Result<(), Unmet> {
     let key = subject.key()?;
     for spec in subject.entry()?.arguments() {
@@ -221,7 +221,7 @@ fn opens_beside(subject: &Subject) -> Result<(), Unmet> {
     opened(subject).map(drop)
 }
 
-/// Undeclared arguments of any content are rejected or ignored.
+/// The plugin returns from a call that opens a device with an undeclared argument of random content.
 fn rubbish_arguments(subject: &Subject) -> Result<(), Unmet> {
     let mut draw = Draw::new(subject.probe.seed);
     for round in 0..subject.openings(64) {
@@ -251,7 +251,7 @@ fn rubbish_arguments(subject: &Subject) -> Result<(), Unmet> {
     Ok(())
 }
 
-/// A plugin writes a `taceva_error` only within its stated size.
+/// A plugin writes to a `taceva_error` only within the size that the error states.
 fn keeps_to_error(subject: &Subject) -> Result<(), Unmet> {
     const ROOM: usize = 24;
     const CANARY: i8 = 0x5a;
@@ -323,7 +323,7 @@ fn interrupts(subject: &Subject) -> Result<(), Unmet> {
     opened(subject).map(drop)
 }
 
-/// A handle works in every thread: one thread opens the device, another uses and closes it.
+/// A device that one thread opened can be closed by another thread.
 fn other_thread(subject: &Subject) -> Result<(), Unmet> {
     let device = opened(subject)?;
     let closed = thread::scope(|scope| scope.spawn(move || drop(device)).join());
@@ -346,7 +346,7 @@ fn discovers(subject: &Subject) -> Result<(), Unmet> {
     Ok(())
 }
 
-/// After the first 100 openings, another 9,900 add less than 1 MiB to the writable memory.
+/// The first 100 openings of a device may allocate. Another 9,900 add less than 1 MiB to the writable memory of the process.
 fn memory(subject: &Subject) -> Result<(), Unmet> {
     if subject.is_real() {
         let why = "the check would open a real device 10000 times";

@@ -26,7 +26,7 @@ pub(super) const CHECKS: &[Check] = &[
 ];
 
 const SAMPLES: usize = 12;
-/// Pictures of 32×32, the default size of features in a study. Layers of a network require this size.
+/// Shape of features from pictures of 32×32 pixels, the default size in a study. Layers of a network require this size.
 const SHAPE: FeatureShape = FeatureShape {
     height: 32,
     width: 32,

@@ -1,4 +1,4 @@
-//! Shortens checks after a hang. A check that hangs again in the same call of the same driver is skipped after a short time.
+//! Shortens checks of a driver after one of its calls has hung. A check that hangs in the same call is then skipped after a short time.
 
 use std::time::Duration;
 
@@ -9,16 +9,16 @@ use super::probe::Probe;
 use super::run;
 use crate::report::Outcome;
 
-/// Divisor of the time limit of a check for its first attempt after a hang.
+/// Divisor that shortens the time limit of a check for its first attempt after a hang.
 const SHORTENED: u32 = 10;
 /// Minimum time limit of a shortened attempt. An interpreter needs most of this time to start.
 const LEAST: Duration = Duration::from_secs(5);
 
-/// Calls that did not return.
+/// Plugin calls that did not return within the time limit.
 #[derive(Debug, Default)]
 pub(super) struct Hangs(Vec<Hang>);
 
-/// A call that did not return, with the check that found it.
+/// A plugin call that did not return within the time limit, and the check that made the call.
 #[derive(Debug)]
 struct Hang {
     /// Key of the driver or estimator, as in [`Probe`].
@@ -28,7 +28,8 @@ struct Hang {
 }
 
 impl Hangs {
-    /// Runs the check `name` on `probe`. After a hang, the first attempt has a shorter limit, since most checks make the same calls.
+    /// Runs the check `name` on `probe`. After a hang, the first attempt of a check without motions has a shorter time limit, because most checks
+    /// make the same calls.
     pub(super) fn check(
         &mut self,
         examination: &Examination<'_>,
@@ -57,13 +58,13 @@ impl Hangs {
         outcome
     }
 
-    /// Earlier hangs of the same driver or estimator, or of the plugin as a whole, for example during import.
+    /// Hangs recorded so far of the same driver or estimator, or of the plugin as a whole, for example during import.
     fn earlier(&self, probe: &Probe) -> impl Iterator<Item = &Hang> {
         let is_alike = move |hang: &&Hang| hang.driver.is_empty() || hang.driver == probe.driver;
         self.0.iter().filter(is_alike)
     }
 
-    /// Adds a hang of the check `name`. Ignores a check that hung outside calls of the plugin, because other checks are unaffected.
+    /// Records that the check `name` hung in `call`. Ignores a check that hung outside plugin calls, because other checks are unaffected.
     fn note(&mut self, probe: &Probe, call: String, name: &'static str) {
         if call != run::WHOLE {
             self.0.push(Hang {

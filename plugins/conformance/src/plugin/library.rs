@@ -1,4 +1,4 @@
-//! Checks of the library as a whole.
+//! Checks of a plugin's library as a whole.
 
 #![expect(
     unsafe_code,
@@ -14,7 +14,7 @@ use crate::promise::{Unmet, broken, expect, skipped};
 use taceva_host::Library;
 use taceva_host::bare::RigHandle;
 
-/// Name of the check whose child must print nothing.
+/// Name of the check that fails if its child process prints anything.
 pub(super) const QUIET: &str = "library/quiet";
 
 const OF: Of = Of::Plugin;
@@ -39,7 +39,7 @@ fn load(subject: &Subject) -> Result<std::sync::Arc<Library>, Unmet> {
     loaded.map_err(|error| Unmet::Broken(error.problem().to_string()))
 }
 
-/// A second copy of the library works like the first copy, with its own static variables.
+/// A second copy of the library loads, and states the same id as the first copy.
 fn loads_twice(subject: &Subject) -> Result<(), Unmet> {
     let second = load(subject)?;
     expect(second.id() == subject.library.id(), || {
@@ -47,14 +47,14 @@ fn loads_twice(subject: &Subject) -> Result<(), Unmet> {
     })
 }
 
-/// `deinit` succeeds after all objects are closed. The library can then be initialised again.
+/// The plugin's function `deinit` succeeds after all objects are closed. The library can then be initialised again.
 fn ends(subject: &Subject) -> Result<(), Unmet> {
     drop(load(subject)?);
     drop(load(subject)?);
     Ok(())
 }
 
-/// The manifest contains all needs that the library states. The host uses only the manifest.
+/// The manifest contains all external needs that the library states, since the host reads only the manifest.
 fn needs(subject: &Subject) -> Result<(), Unmet> {
     let offer = subject.library.offer();
     let offer = offer.map_err(|problem| Unmet::Broken(problem.to_string()))?;
@@ -144,7 +144,7 @@ fn unknown_rig_extension(subject: &Subject) -> Result<(), Unmet> {
     })
 }
 
-/// Loading and opening change neither the working directory nor the environment.
+/// Loading the library and opening a device change neither the working directory nor the environment.
 fn keeps_surroundings(subject: &Subject) -> Result<(), Unmet> {
     drop(RigHandle::open(&subject.library)?);
     let (before, now) = (&subject.before, Surroundings::now());
@@ -167,7 +167,7 @@ fn keeps_signals(subject: &Subject) -> Result<(), Unmet> {
     }
 }
 
-/// Loading prints nothing, because output would corrupt a result. The host checks the output of the process.
+/// Loading the library prints nothing, because its output would corrupt the output of the program. The host checks the output of the process.
 fn quiet(subject: &Subject) -> Result<(), Unmet> {
     drop(load(subject)?);
     drop(RigHandle::open(&subject.library)?);

@@ -8,7 +8,7 @@ use super::CheckRequest;
 /// Separator between names of checks that run in one process.
 pub(super) const BETWEEN: &str = ",";
 
-/// One check on one driver, or several checks with their names separated by commas.
+/// Checks to run on one driver: the name of one check, or several names separated by commas.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Probe {
     pub(crate) check: String,

@@ -1,4 +1,4 @@
-//! Promises of the table of a robot, tested with motions that a host would never request.
+//! Promises of the function table of a robot, tested with motions that a host would never request.
 
 #![expect(
     unsafe_code,

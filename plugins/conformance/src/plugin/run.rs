@@ -1,4 +1,4 @@
-//! Runs one or several checks in a child. The child becomes ready to serve if the promises hold, and otherwise reports an error.
+//! Runs one or several checks in a child process. The child reports readiness if the promises hold, and otherwise an error.
 
 use std::fs::File;
 use std::io::{Read, Seek};
@@ -15,12 +15,12 @@ use taceva_host::Session;
 use taceva_host::bare::Source;
 use taceva_host::bare::pending_call;
 
-/// Prefix of the answer of a skipped check.
+/// Prefix of the reason that a child reports for a skipped check.
 pub(super) const SKIPPED: &str = "skipped: ";
-/// Name of the pending call while a check waits outside calls of the plugin.
+/// Name of the pending call while a check is outside plugin calls.
 pub(super) const WHOLE: &str = "end the check";
 
-/// Runs the checks of `file` on the plugin of `source`, in this process. Returns a session if the promises hold.
+/// Runs the checks that `file` lists on the plugin of `source`, in this process. Returns the session with the plugin if the promises hold.
 ///
 /// # Errors
 /// Kind and reason of the unmet promise.

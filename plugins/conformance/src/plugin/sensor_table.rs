@@ -1,4 +1,4 @@
-//! Checks of the memory of frames that a plugin passes to its host, and of the release of this memory.
+//! Checks of the frames whose memory a plugin lends to its host, and of the release of this memory.
 
 #![expect(
     unsafe_code,
@@ -29,13 +29,13 @@ pub(super) const CHECKS: &[Check] = &[
     OF.check("sensor/release-after-stop", late_release),
 ];
 
-/// Started sensor, called directly through its table.
+/// Started sensor whose function table a check calls directly.
 struct Bare {
     opened: Opened<abi::SensorCalls>,
     length: usize,
 }
 
-/// Received frame, released on drop.
+/// Captured frame, released on drop.
 struct Lent(abi::Frame);
 
 impl Drop for Lent {
@@ -94,7 +94,7 @@ impl Bare {
         Ok(lent)
     }
 
-    /// Captures a frame into memory of the plugin.
+    /// Captures a frame that stays in memory of the plugin.
     fn lend(&self) -> Result<Lent, Unmet> {
         if self.opened.calls.max_lent == 0 {
             return Err(skipped("it never lends frames"));
@@ -126,7 +126,7 @@ fn counts(subject: &Subject) -> Result<(), Unmet> {
 
 const CANARY: u8 = 0x5a;
 
-/// With a too short buffer, the plugin rejects the call or lends the frame. It writes nothing beyond the buffer.
+/// With a buffer that is too short, the plugin rejects the call or returns a frame in its own memory. It writes nothing beyond the buffer.
 fn keeps_to_buffer(subject: &Subject) -> Result<(), Unmet> {
     let sensor = Bare::started(subject)?;
     for room in [1, sensor.length / 2, sensor.length - 1] {
@@ -181,7 +181,7 @@ fn no_buffer(subject: &Subject) -> Result<(), Unmet> {
     }
 }
 
-/// `release` sets the field `release` to NULL, so that no frame is released twice.
+/// A frame's function `release` sets the field `release` of the frame to NULL, so that no frame is released twice.
 fn releases(subject: &Subject) -> Result<(), Unmet> {
     let sensor = Bare::started(subject)?;
     for _ in 0..100 {
@@ -198,7 +198,7 @@ fn releases(subject: &Subject) -> Result<(), Unmet> {
     Ok(())
 }
 
-/// Lent frame that may move to another thread.
+/// Captured frame that may move to another thread.
 struct Elsewhere(Lent);
 
 // SAFETY: the interface allows `release` from any thread, and a lent frame belongs to its holder.
@@ -222,7 +222,7 @@ fn releases_elsewhere(subject: &Subject) -> Result<(), Unmet> {
     Ok(())
 }
 
-/// The declared number of frames can be lent at once. A further capture fails or waits. Capture works again after the frames are released.
+/// The host can hold the declared number of frames at once. A further capture does not crash. Captures work again after the frames are released.
 fn lends_many(subject: &Subject) -> Result<(), Unmet> {
     let sensor = Bare::started(subject)?;
     let most = usize::try_from(sensor.opened.calls.max_lent)

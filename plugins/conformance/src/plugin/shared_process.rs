@@ -11,7 +11,7 @@ use super::probe::{BETWEEN, Probe};
 use super::{Check, CheckRequest, subjects};
 use crate::report::Outcome;
 
-/// Names of the checks that share a process, for the library and for estimators.
+/// Names of the checks of the library and of estimators that share a process.
 const NAMES: [&str; 11] = [
     "library/loads",
     "library/needs-what-its-manifest-says",
@@ -26,11 +26,11 @@ const NAMES: [&str; 11] = [
     "estimator/predicts-in-threads",
 ];
 
-/// Time of each check that passed in a shared process, s, by subject and name. Missing checks run separately, because after a failure the results of other
-/// checks are unknown.
+/// Time of each check that passed in a shared process, s, by subject and name. The time of the process is divided evenly among its checks. Checks
+/// that are missing here run separately, because a failure hides the results of the other checks.
 pub(super) type HeldTogether<'a> = BTreeMap<(Option<&'a DriverKey>, &'static str), f64>;
 
-/// Runs the checks of `wanted` that can share a process, in one process per subject. Calls `begin` with their names.
+/// Runs the checks of `wanted` that can share a process, in one process per subject. Calls `begin` with the names of these checks.
 pub(super) fn held_together<'a>(
     examination: &Examination<'_>,
     request: &CheckRequest,

@@ -1,4 +1,4 @@
-//! Subject of a check: a loaded plugin and one of its drivers.
+//! Subject of a check: a loaded plugin, and one of its drivers or estimators.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -23,7 +23,7 @@ pub(super) const AT_ONCE: Duration = Duration::from_millis(50);
 /// Time limit of calls that should return at once, also on a busy machine.
 pub(super) const SOON: Duration = Duration::from_millis(500);
 
-/// Maximum number of openings of a real device in one check.
+/// Greatest number of times that one check opens a real device.
 const REAL_OPENINGS: usize = 3;
 
 /// A loaded plugin, and one of its drivers or estimators.
@@ -61,7 +61,7 @@ impl Subject {
         })
     }
 
-    /// Key of the driver or estimator.
+    /// Key of the checked driver or estimator. Fails for a check of the plugin as a whole.
     pub(super) fn key(&self) -> Result<&DriverKey, Unmet> {
         let none = || broken("this check needs a driver");
         self.key.as_ref().ok_or_else(none)
@@ -81,7 +81,7 @@ impl Subject {
         }
     }
 
-    /// Arguments for opening: given arguments, and declared defaults of the other arguments.
+    /// Arguments for opening the device: the given arguments, and the declared defaults of all others.
     pub(super) fn args(&self) -> Result<Args, Unmet> {
         let args = Args::parse(self.entry()?.arguments(), &self.probe.arguments);
         args.map_err(|error| {
@@ -103,18 +103,18 @@ impl Subject {
         Ok(self.session.describe(self.key()?, &self.args()?)?)
     }
 
-    /// Opens the device for direct calls of its table, in its own rig.
+    /// Opens the device in a new rig, for direct calls of its function table.
     pub(super) fn open<T: Table>(&self) -> Result<Opened<T>, Unmet> {
         let rig = RigHandle::open(&self.library)?;
         self.opened(open(&rig, self.entry()?, &self.list()?))
     }
 
-    /// Opened device, or the reason for the failure.
+    /// Returns the opened device, or the reason why it did not open.
     pub(super) fn opened<T>(&self, opened: Result<T, DriverError>) -> Result<T, Unmet> {
         opened.map_err(|error| self.not_opened(error))
     }
 
-    /// Reason why a device did not open. A missing real device gives a skipped promise.
+    /// Reason why a device did not open. If a real device is missing, the promise is skipped.
     fn not_opened(&self, error: DriverError) -> Unmet {
         match unopened(error, self.is_real()) {
             Unmet::Skipped(why) => Unmet::Skipped(self.with_place(&why)),
@@ -122,13 +122,13 @@ impl Subject {
         }
     }
 
-    /// True for real devices, which wear out.
+    /// True if the driver controls a real device, which wears out.
     pub(super) fn is_real(&self) -> bool {
         let descriptor = self.descriptor();
         descriptor.is_ok_and(|descriptor| descriptor.source() == DriverSource::Real)
     }
 
-    /// Number of openings of a device, at most `simulated`. A real device opens in seconds and wears out, so its number is smaller.
+    /// Number of times that a check may open a device: `simulated`, or fewer for a real device, which opens slowly and wears out.
     pub(super) fn openings(&self, simulated: usize) -> usize {
         if self.is_real() {
             simulated.min(REAL_OPENINGS)
@@ -137,7 +137,7 @@ impl Subject {
         }
     }
 
-    /// Tests a promise on the devices `D`. `open` opens each device in its own rig.
+    /// Tests a promise of the trait `D` on the checked driver. `open` opens a device in a new rig.
     pub(super) fn tries<D: Device + ?Sized>(
         &self,
         open: OpenIn<D>,
@@ -167,7 +167,7 @@ impl Subject {
         }
     }
 
-    /// Skips a promise that moves a device, unless the device is simulated or the user allows it.
+    /// Skips a promise that moves a device, unless the device is simulated or the user gave `--move`.
     pub(super) fn may_move(&self) -> Result<(), Unmet> {
         if self.probe.moves || self.descriptor()?.source() == DriverSource::Simulated {
             return Ok(());
@@ -182,10 +182,10 @@ impl Subject {
     }
 }
 
-/// Opens a device of a session.
+/// Function that opens a device in a session.
 pub(super) type OpenIn<D> = fn(&InProcess, &DriverKey, &Args) -> Result<Box<D>, DriverError>;
 
-/// A driver of the checked library.
+/// Factory of a driver of the checked library.
 struct InLibrary<'a, D: ?Sized> {
     library: &'a Arc<Library>,
     session: &'a InProcess,
@@ -210,7 +210,7 @@ impl<D: Device + ?Sized> Factory<D> for InLibrary<'_, D> {
     }
 }
 
-/// Calls a function of a table directly. Returns the failure that the plugin reports.
+/// Runs a direct call of a plugin function. Returns the failure that the plugin reports.
 pub(super) fn bare(run: impl FnOnce(*mut abi::Error) -> abi::Status) -> Result<(), Failure> {
     call(|error| run(std::ptr::from_mut(error)))
 }
@@ -244,7 +244,7 @@ impl Draw {
     }
 }
 
-/// Writable memory of this process, bytes. A leak increases it.
+/// Writable memory of this process, bytes. A memory leak increases this number.
 pub(super) fn writable_memory() -> Result<u64, Unmet> {
     let maps = std::fs::read_to_string("/proc/self/maps")
         .map_err(|error| Unmet::Skipped(format!("/proc/self/maps: {error}")))?;

@@ -4,7 +4,7 @@
 
 use std::ffi::{CString, OsString};
 
-/// Working directory, environment and signal handlers.
+/// Working directory, environment and signal handlers of this process.
 pub(super) struct Surroundings {
     pub(super) folder: Option<CString>,
     pub(super) variables: Vec<(OsString, OsString)>,

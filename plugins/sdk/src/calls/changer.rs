@@ -1,4 +1,4 @@
-//! Calls of the host on a changer.
+//! Functions with which the host calls a changer.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 

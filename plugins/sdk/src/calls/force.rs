@@ -1,4 +1,4 @@
-//! Calls of the host on a force transducer.
+//! Functions with which the host calls a force transducer.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 
@@ -15,7 +15,7 @@ use crate::failure::Failure;
 use crate::handles::Handle;
 use crate::memory;
 
-/// Open transducer. The flag is true if the driver declares numbered readings.
+/// Open force transducer, with a flag that is true if its driver declares numbered readings.
 pub(crate) struct Opened {
     force: Box<dyn ForceTransducer>,
     is_numbered: bool,

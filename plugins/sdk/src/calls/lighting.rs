@@ -1,4 +1,4 @@
-//! Calls of the host on a lighting device.
+//! Functions with which the host calls a lighting device.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 

@@ -1,4 +1,4 @@
-//! Calls of the host on a robot.
+//! Functions with which the host calls a robot.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 
@@ -21,7 +21,7 @@ use crate::guard::guard;
 use crate::handles::{self, Handle};
 use crate::memory;
 
-/// Open robot, and the accepted motion that has not begun.
+/// Open robot with its limits, and the motion that the host has requested and not yet started.
 pub(crate) struct Opened {
     robot: Box<dyn Robot>,
     limits: RobotFacts,
@@ -54,7 +54,7 @@ impl Kind for dyn Robot {
 }
 
 impl Opened {
-    /// Target and speed of the requested motion. Fails if they exceed the declared limits.
+    /// Target and speed of the motion `asked`. Fails if the target is outside the declared workspace, or if the speed exceeds its limit.
     fn asked(&self, asked: &Motion) -> Result<(Pose, Speed), Failure> {
         let (target, speed) = convert::motion(asked)?;
         let refused = |message| Err(Failure::new(ErrorKind::OutOfRange, message));
@@ -125,7 +125,7 @@ unsafe extern "C" fn pose(
     unsafe { call(handle, error, work) }
 }
 
-/// Accepts a motion for execution by `wait`, because a robot of core moves during a blocking call.
+/// Stores a motion that `wait` executes later, because the method `move_to` of core blocks until the end of the motion.
 unsafe extern "C" fn move_to(
     handle: *mut c_void,
     target: *const Motion,

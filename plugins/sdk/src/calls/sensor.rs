@@ -1,4 +1,4 @@
-//! Calls of the host on a sensor.
+//! Functions with which the host calls a sensor.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 

@@ -1,4 +1,4 @@
-//! Fitted model as bytes at the boundary: its shape and channels, then the bytes from the code of its author.
+//! Fitted model as bytes at the C boundary: shape of its features, names of its channels, then the bytes that the author's code saved.
 
 use taceva_core::{Channel, Channels, ErrorKind, FeatureShape, Saved, SavedRegressor, Unit};
 
@@ -6,10 +6,10 @@ use crate::failure::Failure;
 
 /// First bytes of every encoded model.
 const MAGIC: &[u8; 8] = b"TACEREG1";
-/// First line of the bytes with which the host describes a simulated fault of pictures. The author's `load` receives all of these bytes.
+/// First line of a text with which the host describes a simulated fault of pictures, such as blur. The author's `load` receives the whole text.
 const FAULT: &str = "taceva.fault/1";
 
-/// Encodes `regressor`.
+/// Encodes the fitted model `regressor` as bytes.
 pub(super) fn write(regressor: &dyn SavedRegressor) -> Result<Vec<u8>, Failure> {
     let mut bytes = MAGIC.to_vec();
     let FeatureShape {
@@ -35,7 +35,7 @@ pub(super) fn write(regressor: &dyn SavedRegressor) -> Result<Vec<u8>, Failure> 
     Ok(bytes)
 }
 
-/// Parses the bytes of [`write`] and calls `load` with the bytes of the author.
+/// Parses the output of [`write`], or the description of a fault. Calls `load` with the bytes that the author's code saved.
 pub(super) fn read<R>(
     bytes: &[u8],
     load: impl FnOnce(&Saved<'_>) -> Result<R, Failure>,
@@ -82,7 +82,7 @@ pub(super) fn read<R>(
     load(&Saved::new(rest.0, &channels, shape))
 }
 
-/// Number of values per pixel, from the line `numbers=3` of a description that begins with [`FAULT`]; `None` for other bytes.
+/// Number of values per pixel in a description that begins with [`FAULT`], read from a line such as `numbers=3`; `None` for other bytes.
 fn numbers_of_a_fault(bytes: &[u8]) -> Option<usize> {
     let mut lines = std::str::from_utf8(bytes).ok()?.lines();
     lines.next().filter(|head| *head == FAULT)?;
@@ -92,7 +92,7 @@ fn numbers_of_a_fault(bytes: &[u8]) -> Option<usize> {
         .ok()
 }
 
-/// Channel called `name`. The six channels have their own units; any other channel has the unit 1.
+/// Channel called `name`. `Px` to `Pz` have the unit mm, `Fx` to `Fz` have N, and other channels have [`Unit::One`].
 pub(super) fn channel(name: &str) -> Result<Channel, Failure> {
     let known = Channel::SIX
         .into_iter()
@@ -105,7 +105,7 @@ pub(super) fn channel(name: &str) -> Result<Channel, Failure> {
     }
 }
 
-/// Bytes that are not yet read.
+/// Bytes of an encoded model that are not yet read.
 struct Rest<'a>(&'a [u8]);
 
 impl<'a> Rest<'a> {

@@ -7,7 +7,7 @@ use std::thread::{self, ThreadId};
 use taceva_abi::Progress as Report;
 use taceva_core::Progress;
 
-/// Progress that calls the host only from the thread that requested the fit. Other threads read the last answer of the host.
+/// Progress of a fit. Calls the host only from the thread that requested the fit. Other threads read its last answer.
 pub(super) struct ReportedProgress {
     report: Report,
     context: AtomicPtr<c_void>,

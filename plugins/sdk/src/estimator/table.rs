@@ -1,4 +1,4 @@
-//! Calls on estimators and on fitted models.
+//! Functions with which the host calls estimators and fitted models.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 
@@ -22,7 +22,7 @@ use crate::handles;
 use crate::table::estimator_table;
 use crate::{factory, memory};
 
-/// Table of calls for a plugin with `estimators` estimators.
+/// Table of functions of a plugin with `estimators` estimators.
 pub(crate) fn table(estimators: u32) -> Table {
     #[expect(clippy::cast_possible_truncation, reason = "thirty-two bytes")]
     let size = size_of::<Table>() as u32;
@@ -214,7 +214,7 @@ unsafe extern "C" fn save(
     unsafe { guard(error, work) }
 }
 
-/// Training samples of the host, checked and copied.
+/// Training samples from the host, checked and copied.
 struct Set {
     features: Features,
     channels: Channels,
@@ -224,7 +224,7 @@ struct Set {
 
 impl Set {
     /// # Safety
-    /// `set` is NULL, or the set and its arrays have the stated lengths and stay unchanged during the call.
+    /// `set` is NULL or points to a training set. Its arrays have the stated lengths. All stay unchanged during the call.
     unsafe fn read(set: *const AbiSet) -> Result<Set, Failure> {
         // SAFETY: guaranteed by the caller.
         let set = unsafe { memory::sized("training set", set) }?;

@@ -1,4 +1,4 @@
-//! Detects a single sample that causes a great part of the squared error.
+//! Detects a single sample that causes at least a quarter of the summed squared error of a channel.
 
 use std::fmt;
 
@@ -7,12 +7,12 @@ use taceva_metrics::plane_axes;
 
 use super::{SampleChannel, Samples};
 
-/// Least number of samples. Among fewer samples, one may cause a quarter of the squared error by chance.
+/// Least number of predicted samples for reporting a dominant one. Among fewer samples, one may cause a quarter of the squared error by chance.
 const LEAST_SAMPLES: usize = 50;
-/// Least reported share of the squared error.
+/// Least share of the summed squared error at which a sample is reported.
 const LEAST_SHARE: f64 = 0.25;
 
-/// A sample that causes a great part of the squared error of a channel. `Display` writes a clause about the sample.
+/// Sample that causes at least a quarter of the squared error of a channel, summed over samples. `Display` writes a clause with name and share.
 ///
 /// ```
 /// use taceva_results::Samples;
@@ -27,13 +27,13 @@ const LEAST_SHARE: f64 = 0.25;
 pub struct DominantSample {
     /// Name of the sample.
     pub name: String,
-    /// Share of the squared error caused by the sample, from 0 to 1.
+    /// Share of the squared error caused by the sample, from 0 to 1. The total is the sum over all predicted samples.
     pub share: f64,
 }
 
 impl Samples {
-    /// Sample that causes at least a quarter of the squared error of a channel or plane. `None` if no sample does, or if fewer than 50 samples have a
-    /// prediction.
+    /// Sample that causes at least a quarter of the squared error of a channel or plane, summed over samples. `None` without such a sample, or if
+    /// fewer than 50 samples have truth and prediction.
     pub fn dominant(&self, channel: &str) -> Option<DominantSample> {
         let axes = plane_axes(channel).map_or_else(|| vec![channel], |axes| axes.to_vec());
         let channels = axes.into_iter().map(|axis| self.channel(axis));

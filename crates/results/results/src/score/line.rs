@@ -1,4 +1,4 @@
-//! Sequence of a score and its variants, for rows of tables.
+//! Lines of a score: one for the score and one per variant, for rows of tables.
 
 use taceva_core::Unit;
 use taceva_metrics::Better;
@@ -7,7 +7,7 @@ use super::Score;
 use crate::interval::Interval;
 use crate::value::Value;
 
-/// Metric with the name of a variant: `mae`, `r_spatial.within`.
+/// Name of a metric, followed by the name of a variant if given: `mae`, `r_spatial.within`.
 ///
 /// ```
 /// assert_eq!(taceva_results::full_name("r_spatial", Some("within")), "r_spatial.within");
@@ -19,7 +19,7 @@ pub fn full_name(metric: &str, variant: Option<&str>) -> String {
     }
 }
 
-/// One number of a score, or the reason for its absence.
+/// One number of a score or of its variant, or the reason for its absence. Corresponds to one row of a table.
 ///
 /// ```
 /// use taceva_core::Unit;
@@ -31,19 +31,19 @@ pub fn full_name(metric: &str, variant: Option<&str>) -> String {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct ScoreLine<'a> {
-    /// The metric, with the name of the variant: `mae`, `r_spatial.within`.
+    /// Name of the metric, followed by the name of the variant: `mae`, `r_spatial.within`.
     pub name: String,
-    /// The channel or plane.
+    /// Channel or plane of the score.
     pub channel: &'a str,
     /// Value, or the reason for its absence.
     pub value: &'a Value,
     /// Unit of value and interval.
     pub unit: Unit,
-    /// Interval; `None` if the number cannot have one.
+    /// Interval; `None` if the metric or variant has no interval.
     pub interval: Option<&'a Interval>,
     /// Score to which the number belongs.
     pub score: &'a Score,
-    /// True for the score itself, false for one of its variants.
+    /// True for the value of the score itself, false for one of its variants.
     pub is_headline: bool,
 }
 
@@ -75,12 +75,12 @@ impl Score {
 }
 
 impl ScoreLine<'_> {
-    /// The name with the sign of its direction: `mae ↓`.
+    /// Name with an arrow in the direction of better values: `mae ↓`.
     pub fn shown_name(&self) -> String {
         Better::named(&self.name)
     }
 
-    /// True for the reference constant of a score, which is not a score of the model.
+    /// True for the score of a constant prediction, which is listed for reference and is not a score of the model.
     pub fn is_reference(&self) -> bool {
         matches!(
             self.name.as_str(),

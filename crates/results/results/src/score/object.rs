@@ -66,7 +66,7 @@ impl Serialize for Variant {
     }
 }
 
-/// Writes the value, and the unit of a value that is present.
+/// Writes the value. Writes the unit too, unless the value is absent.
 fn serialize_value<M: SerializeMap>(
     object: &mut M,
     value: &Value,
@@ -101,7 +101,7 @@ fn serialize_value<M: SerializeMap>(
     object.serialize_entry("unit", &unit)
 }
 
-/// Writes the interval of a number with its method.
+/// Writes the interval of a number, with its method, to the JSON `object`. Writes nothing for other values.
 fn serialize_interval<M: SerializeMap>(
     object: &mut M,
     value: &Value,
@@ -138,7 +138,7 @@ fn serialize_interval<M: SerializeMap>(
     }
 }
 
-/// Serialized reason: `{"undefined": reason}`.
+/// Reason for an absent interval, as JSON: `{"undefined": reason}`.
 #[derive(serde::Serialize, serde::Deserialize)]
 struct Reason {
     undefined: String,

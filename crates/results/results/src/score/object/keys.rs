@@ -10,7 +10,7 @@ use crate::ordered_map::Ordered;
 use crate::score::{Score, Variant};
 use crate::value::Value;
 
-/// Keys of a score or variant; `None` for a key that the object lacks.
+/// Values of all keys of a score or variant; `None` for a key that the JSON object lacks.
 #[derive(Default)]
 pub(super) struct Keys {
     value: Option<f64>,
@@ -43,7 +43,7 @@ pub(super) struct Keys {
     variants: Vec<Variant>,
 }
 
-/// Values of a curve, or of a map or matrix.
+/// Values of a curve (list), or of a map or matrix (grid).
 #[derive(serde::Deserialize)]
 #[serde(untagged, expecting = "a list or grid of numbers and nulls")]
 enum Values {
@@ -51,7 +51,7 @@ enum Values {
     Grid(Vec<Vec<Option<f64>>>),
 }
 
-/// Counts of a curve, of a map, or of a computation by name.
+/// Number of samples behind each value of a curve (list) or map (grid), or named counts of a computation.
 #[derive(serde::Deserialize)]
 #[serde(untagged, expecting = "counts")]
 enum Counts {
@@ -60,7 +60,7 @@ enum Counts {
     Named(Ordered<u64>),
 }
 
-/// Ends of an interval, or the reason for their absence.
+/// Both ends of an interval, or the reason for their absence.
 #[derive(serde::Deserialize)]
 #[serde(untagged, expecting = "two ends or a reason")]
 enum Ends {
@@ -122,7 +122,7 @@ impl Keys {
         Ok(())
     }
 
-    /// Score without metric and channel, which the caller fills in.
+    /// Creates the score from the keys. The caller sets its metric and its channel.
     pub(super) fn score<E: Error>(mut self) -> Result<Score, E> {
         let interval = self.interval();
         let counts = match self.counts.take() {
@@ -228,7 +228,7 @@ impl Keys {
     }
 }
 
-/// True if `grid` has one cell between each two neighbouring edges of `x` and of `y`.
+/// True if `grid` has one row between each two neighbouring edges `y`, and each row one cell between two neighbouring edges `x`.
 fn fills<T>(grid: &[Vec<T>], x: &[f64], y: &[f64]) -> bool {
     grid.len() + 1 == y.len() && grid.iter().all(|row| row.len() + 1 == x.len())
 }
@@ -237,7 +237,7 @@ fn shape<E: Error>() -> E {
     E::custom("expected one value for each place, found another number of values")
 }
 
-/// Standing, parsed from the words in the JSON object.
+/// Standing of a score in verdicts, parsed from its text in JSON.
 struct Words(Standing);
 
 impl<'de> Deserialize<'de> for Words {
