@@ -141,8 +141,8 @@ pub fn checks() -> Vec<Check> {
     .concat()
 }
 
-/// Checks of the devices of one `kind`, and checks of its function `table`. A table check replaces the device check of the same name, which would
-/// test the host instead of the plugin.
+/// Checks of drivers of one `kind`: the `promises` of an open device, and the checks in `table`, which call the plugin's functions directly. A check
+/// in `table` replaces the promise of the same name, whose test would examine the host instead of the plugin.
 fn of_kind<D: ?Sized>(
     kind: DriverKind,
     promises: &'static [Promise<D>],

@@ -18,7 +18,7 @@ impl Sample {
         }
     }
 
-    /// The same sample with the name of the sensor model.
+    /// The same sample with the name `sensor_id` of its sensor model. `None` removes the name.
     #[must_use]
     pub fn with_sensor_id(mut self, sensor_id: impl Into<Option<String>>) -> Sample {
         self.sensor_id = sensor_id.into();

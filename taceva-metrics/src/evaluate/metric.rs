@@ -40,7 +40,7 @@ pub struct Metric {
     pub unit: ScoreUnit,
     /// Range of possible values and interval ends.
     pub range: Range,
-    /// Name and version of the definition. Another version has another meaning.
+    /// Name and version of the definition of the metric, such as `sensitivity/1`. Scores with different versions have different meanings.
     pub definition: &'static str,
     /// Source of the definition.
     pub reference: &'static str,

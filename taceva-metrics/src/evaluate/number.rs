@@ -1,4 +1,4 @@
-//! Number types that a column of samples may have.
+//! Types of the numbers in a column that metrics read: `f64`, `f32`, references to them, and optional numbers.
 
 /// Number type of a column: `f64`, `f32`, a reference to one of them, or an `Option` with `None` for a missing value.
 ///

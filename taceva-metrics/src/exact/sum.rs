@@ -39,11 +39,11 @@ const DENORMAL_SQUARE_POSITION: usize = UNIT_POSITION - 2148;
 #[derive(Clone, Default)]
 pub struct ExactSum {
     window: [i64; WINDOW],
-    /// Index of the digit in `window[0]`.
+    /// Index in the whole sum of the digit in `window[0]`.
     first: u32,
-    /// Additions left before the next propagation of carries; 0 in a new sum, whose window has no position yet.
+    /// Additions left before the next propagation of carries; 0 in a new sum, whose first addition sets `first`.
     deposits_left: u32,
-    /// All digits, allocated if the inline digits are too few.
+    /// All 32-bit digits of the sum, allocated if the sum needs more of them than `window` holds.
     full: Option<Box<[i64; DIGITS]>>,
 }
 

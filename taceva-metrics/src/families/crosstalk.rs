@@ -58,7 +58,7 @@ pub(crate) struct Crosstalk {
 }
 
 impl Crosstalk {
-    /// Creates the family for the channels of `plan`.
+    /// Creates the joint regression for the contact channels of `plan`.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Crosstalk {
         let channels = plan.channels().iter().enumerate();
         let six = channels.filter(|(_, channel)| Channel::SIX.contains(channel));

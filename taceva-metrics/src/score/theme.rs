@@ -15,7 +15,7 @@ pub enum Theme {
     Accuracy,
     /// Finest recognised detail and least detected force.
     Detail,
-    /// Compliance of the gel.
+    /// Sensitivity of the gel surface: indentation per newton, and its uniformity over the surface.
     Surface,
     /// Changes of results with place, light, time, repetition and unit of the sensor.
     Robustness,

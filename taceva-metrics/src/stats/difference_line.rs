@@ -25,7 +25,7 @@ pub struct DifferenceLine {
     pub(crate) sums: [ExactSum; 3],
 }
 
-/// Change of the difference of two methods with the magnitude of the measured quantity.
+/// Slope of the difference between two methods over their mean, with its uncertainty.
 ///
 /// ```
 /// use taceva_metrics::{DifferenceLine, Moments};

@@ -17,14 +17,14 @@ use crate::score::value::{InapplicableReason, UndefinedReason};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ComparisonError {
-    /// The score of one side has no value, or no interval.
+    /// The score of one side of the comparison, A or B, has no value or no interval.
     Undefined {
         /// Side without a value or an interval.
         side: Side,
         /// Reason for the missing value or interval.
         reason: UndefinedReason,
     },
-    /// The metric does not apply on one side.
+    /// The metric does not apply to one side of the comparison, A or B.
     NotApplicable {
         /// Side to which the metric does not apply.
         side: Side,

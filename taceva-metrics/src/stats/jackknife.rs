@@ -89,7 +89,8 @@ pub(crate) fn interval(value: f64, range: Range, left_out: &[LeftOut]) -> Interv
     }
 }
 
-/// Standard error and degrees of freedom of the jackknife on the unbounded scale of the score; `None` unless all scores have a value there.
+/// Standard error and degrees of freedom of the jackknife on the unbounded scale of the score. This scale is the logarithm of odds, or of the
+/// distance to a finite end of the range. `None` if the score without one of the clusters has no value on this scale, or the jackknife is undefined.
 ///
 /// A score of few clusters has a skewed distribution, because one cluster may have large errors. The standard error then depends on the score itself.
 /// On the unbounded scale the standard error does not (`docs/coverage.md`).

@@ -41,7 +41,7 @@ pub(crate) struct Spread {
     within_squares: ExactSum,
     /// Sum over the bins of the number of samples minus 1.
     within_freedom: u64,
-    /// Sum over the bins of 1 / number of samples, each rounded.
+    /// Sum over the bins of 1 / n, with the number n of samples in the bin. Each quotient is rounded; their sum is exact.
     shares: ExactSum,
     /// Sum over the bins of the standard deviation within each bin, with the divisor n.
     deviations: ExactSum,

@@ -1,5 +1,5 @@
-//! Feature settings that depend on the frames of a recording. The grid is no finer than the pixels. Colour is used if frames have it, and a
-//! contact-free frame is subtracted if there is one.
+//! Feature settings that depend on the frames of a recording. A setting can limit the feature grid to one cell per pixel. Another one uses colour
+//! only if frames have it. A third one subtracts a contact-free frame if frames have colour and the recording has such a frame.
 
 use taceva_core::FrameInfo;
 

@@ -137,7 +137,8 @@ impl SplitSpec {
         }
     }
 
-    /// Requested share of a part, 0..1. If the split or the recording names the parts, every share is 1.
+    /// Requested share of a part, from 0 to 1. If the split or the recording names the part of each sample, no shares are requested. Every share then
+    /// counts as 1.
     fn share_of(&self, part: Part) -> f64 {
         if self.kind == SplitKind::All {
             return if part == Part::Train { 1.0 } else { 0.0 };

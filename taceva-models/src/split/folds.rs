@@ -105,8 +105,8 @@ impl FoldSpec {
     }
 }
 
-/// Part of each group of `order` in fold number `fold` of `count`. Groups of this fold are the test part. Validation takes the first groups of the
-/// next folds, and training takes the rest.
+/// Part of each group of `order` in fold number `fold` of `count`. The groups of this fold are the test part. The others are taken in the order of
+/// the next folds: the first ones are the validation part, and the rest the training part. `fractions` gives the number of validation groups.
 fn parts<'a>(
     order: &[&'a str],
     fold: usize,

@@ -128,7 +128,8 @@ impl<'a> Trials<'a> {
         Ok(total)
     }
 
-    /// Index of the candidate with the least error for each channel, and the record of the choice. `values` contains the values of the candidates.
+    /// Chooses a candidate for each channel: the one with the least error in this channel, or the first one if `errors` is `None`. Returns the index
+    /// of the chosen candidate for each channel, and a record with its value and error. `values` contains the values of the candidates.
     pub(crate) fn choose(
         &self,
         problem: &Problem<'_>,

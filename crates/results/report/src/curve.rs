@@ -25,9 +25,9 @@ pub struct CurveAxis {
 /// Requested figures of a curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CurveRequest {
-    /// Coverage probability of bands and inverse predictions, 0 to 1.
+    /// Coverage probability of confidence bands, prediction bands and intervals of inverse predictions, 0 to 1.
     pub p: f64,
-    /// Reference values at which bands are computed.
+    /// Reference values at which the confidence band and the prediction band of the curve are computed.
     pub at: Vec<f64>,
     /// Number of averaged new readings.
     pub readings: u32,

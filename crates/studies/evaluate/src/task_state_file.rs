@@ -39,7 +39,7 @@ pub struct TaskStates {
     pub sources: BTreeSet<String>,
     /// Pairing of the rows of each part, in words.
     paired: BTreeSet<String>,
-    /// Shards whose rows are counted, if other shards of the same tables are missing.
+    /// Shards whose rows are counted; `None` if all rows of the tables are counted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     shards: Option<Shards>,
     /// State of each task, in the requested order.

@@ -25,7 +25,7 @@ pub struct Board {
     pub pose: GratingPose,
     /// Pressure over its whole area.
     pub pressure_mpa: f64,
-    /// Depth of the board in a dome, mm. A deeper board is nearer to the camera.
+    /// Depth of the board below the surface of the gel at rest, mm; for a dome, below its apex. A deeper board is nearer to the camera.
     pub depth_mm: f64,
     /// Effective modulus of the gel.
     pub young_modulus_mpa: f64,

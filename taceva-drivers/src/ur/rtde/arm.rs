@@ -54,7 +54,7 @@ pub(super) struct Stop {
 /// Last stop that was sent.
 #[derive(Debug)]
 struct Sent {
-    /// Number of the stop. The controller reports the number once it begins the stop.
+    /// Sequence number of the stop. The controller reports this number once it begins the stop.
     number: i32,
     /// Time at which the stop was sent, on the monotonic clock; `None` before the first stop.
     at: Option<Duration>,

@@ -40,7 +40,8 @@ impl Accumulator {
             .collect()
     }
 
-    /// Numbers of one score: the numbers of its part, the mean of its two parts, or joint numbers from all parts.
+    /// Value and variants of one score. If the family has a joint formula for the score, the numbers come from the sums of all parts together.
+    /// Otherwise the numbers are those of the score's only part, or the mean of its two parts.
     fn numbers(&self, metric: &Metric, output: &Output, sums: &ErasedSums) -> Numbers {
         self.of_parts(metric, output, sums, |part| {
             self.family.numbers(metric, output, sums, part)

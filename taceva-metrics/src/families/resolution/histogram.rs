@@ -70,8 +70,8 @@ impl Histogram {
         (n > 0).then(|| Dyadic::from(self.hits(tolerance_nm)).over(&Dyadic::from(n)))
     }
 
-    /// Converts the histogram to the record of a state. Its counts are the number of invalid samples, then each error followed by its number of
-    /// samples. A cell lists true spacings in the same way.
+    /// Converts the histogram to its record in a stored evaluation state. The record's counts are the number of invalid samples, then each error
+    /// followed by its number of samples. A cell lists true spacings in the same way.
     pub(super) fn to_record(&self) -> Record {
         let flat = |counts: &BTreeMap<u64, u64>| {
             let counts = counts.iter();
@@ -92,7 +92,7 @@ impl Histogram {
         }
     }
 
-    /// Reads a histogram from the record of a state.
+    /// Reads a histogram from its record in a stored evaluation state.
     pub(super) fn read_record(record: &Record) -> Result<Histogram, String> {
         if !(record.sums.is_empty() && record.values.is_empty()) {
             return Err("the record has sums or values, expected counts only".to_owned());

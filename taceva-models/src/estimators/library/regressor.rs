@@ -1,4 +1,4 @@
-//! Fitted library models, with their features, parameters and scale of predictions.
+//! Fitted models of other libraries, such as linfa and smartcore, with their features, parameters and scale of predictions.
 
 use std::fmt;
 use std::sync::Arc;

@@ -1,8 +1,8 @@
 //! Coordinates of samples in their span, used if there are no more samples than features.
 //!
 //! A rotation of the features does not change ridge regression or the least-norm solution of least squares. The weights have no component outside the
-//! span of the samples. The span has fewer dimensions than there are samples. A library that requires more samples than features can therefore
-//! compute the same result in these coordinates.
+//! span of the samples. The samples are centred, so that their span has fewer dimensions than there are samples. A library that requires more samples
+//! than features can therefore compute the same result in these coordinates.
 
 use crate::estimators::library::predictor::Weighted;
 use crate::linalg::dot;

@@ -10,12 +10,12 @@ use super::training::{Training, no_gpu, refused};
 use crate::features::Preprocessing;
 use crate::linalg::invalid;
 
-/// Form in which a network predicts a spacing.
+/// Form in which a network predicts the spacing of a grating in a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpacingOutput {
-    /// One class per spacing of the training pictures. Training uses cross entropy. The network predicts one of these spacings.
+    /// One class per grating spacing in the training pictures. Training uses cross entropy. The network predicts one of these spacings.
     Classes,
-    /// One number: the spacing as a length. Training uses Huber's loss. Predictions may lie between the spacings of the training pictures.
+    /// One number: the grating spacing as a length. Training uses Huber's loss. Predictions may lie between the spacings of the training pictures.
     Length,
 }
 

@@ -15,8 +15,8 @@ const TIMES: u8 = 32;
 /// Size of the checksum at the end of a block, bytes.
 const CHECKSUM: usize = 4;
 
-/// Changes the version of the layout messages in one complete block of an object header, and the checksum of the block. A block with a wrong checksum is
-/// unchanged.
+/// Lowers version 5 of the data layout messages in one complete block of an object header to version 4. The checksum of the block is updated. A block
+/// with a wrong checksum is unchanged.
 pub(super) fn lower(block: &mut [u8]) {
     let places = layouts(block);
     let Some(end) = block

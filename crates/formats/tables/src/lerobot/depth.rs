@@ -30,8 +30,8 @@ pub struct DepthCodes {
 }
 
 impl DepthCodes {
-    /// Codes of distances in the range `ends_m`, m. Logarithmic codes are linear in the logarithm of the distance plus `shift_m`, m. `None` if the range is
-    /// empty, negative or not finite, or the logarithm is undefined.
+    /// Codes of distances in the range `ends_m`, m. Logarithmic codes are linear in ln(d + `shift_m`) for a distance d in metres. `None` if the range
+    /// is empty, negative or not finite, or the logarithm is undefined.
     pub fn new(ends_m: [f64; 2], shift_m: f64, is_logarithmic: bool) -> Option<DepthCodes> {
         let [least_m, greatest_m] = ends_m;
         let are_finite = ends_m

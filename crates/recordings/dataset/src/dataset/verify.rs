@@ -53,8 +53,9 @@ impl Dataset {
         check_digest(path, predictions.sha256, found)
     }
 
-    /// Checks that header and table agree and that all paths are valid. At this point, the digest of the header does not cover the tasks yet. Later
-    /// reads of frames need no further check.
+    /// Checks that header and table agree and that all paths are valid. Later reads of frames need no further check.
+    ///
+    /// The digest that the header file states does not cover tasks. This check therefore runs before the tasks are added to the digest in memory.
     pub(super) fn check_consistency(&self) -> Result<(), DatasetError> {
         let damaged =
             |name: &str, problem: String| DatasetError::damaged(&self.path().join(name), problem);

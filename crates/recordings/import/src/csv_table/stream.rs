@@ -16,7 +16,7 @@ use taceva_dataset::{Digest, Place};
 /// Read size, bytes.
 const AHEAD: usize = 1 << 16;
 
-/// Maximum size of a block, bytes; blocks of numbers remain smaller.
+/// Maximum size of a block of rows, bytes. A larger block is an error.
 const MOST_BYTES: usize = 1 << 28;
 
 /// Number of leading bytes that are searched for zero bytes, as in [`CsvTable::read`].

@@ -15,9 +15,9 @@ use taceva_metrics::distributions::{noncentral_t, student_t};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DetectionRisks {
-    /// Risk of a false detection at x = 0.
+    /// Risk of a false detection at the reference value 0.
     pub alpha: f64,
-    /// Risk of a missed detection at the detectable value x_D.
+    /// Risk of a missed detection at the detectable reference value x_D.
     pub beta: f64,
     /// Number K of averaged readings.
     pub readings: u32,
@@ -33,7 +33,7 @@ impl Default for DetectionRisks {
     }
 }
 
-/// Detection limits in the unit of x, for independent rows.
+/// Detection limits in the unit of the reference values x, for independent rows.
 ///
 /// ```
 /// use taceva_metrology::curve::{CurveFit, CurveRow, DetectionRisks};

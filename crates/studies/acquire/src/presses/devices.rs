@@ -175,7 +175,8 @@ impl OpenRig {
         })
     }
 
-    /// Raises the tip of a real rig under a guard and halts it, so that an operator can reach in. Returns true if the tip moved.
+    /// Raises the tip of a real rig while guard threads watch the robot, and then halts the robot. An operator can then reach in. Returns true if the
+    /// tip moved.
     ///
     /// # Errors
     /// Errors of [`raise`](taceva_protocol::raise).

@@ -1,6 +1,6 @@
 //! Depth maps as the mean depths of a few cells, which a model predicts.
 
-/// Most cells along a side of a map.
+/// Maximum number of cells along a side of a depth map.
 const MOST_CELLS: usize = 24;
 
 /// Grid of cells on depth maps of one size.

@@ -1,4 +1,4 @@
-//! A shorter exposure, or lamps that age.
+//! Fault in which a shorter exposure or aged lamps darken the whole picture.
 
 use crate::canvas::{Canvas, Realisation};
 use crate::fault::{Effect, Fault, Scope};

@@ -8,7 +8,7 @@ const ACROSS: usize = 16;
 /// Mean of untouched pictures, divided into cells.
 #[derive(Clone, Debug)]
 pub(super) struct Baseline {
-    /// Mean of each pixel value of a picture.
+    /// Mean of each pixel value over the untouched pictures.
     means: Vec<f32>,
     /// Index of the cell of each pixel value. A cell is a square of pixels of one colour.
     cells: Vec<u32>,

@@ -24,7 +24,7 @@ const SHUFFLES: u64 = 3;
 /// Request of a race.
 #[derive(Clone, Copy, Debug)]
 pub struct KernelRequest {
-    /// Rows of each of the six channels.
+    /// Number of timed rows in each of the six contact channels.
     pub rows: usize,
     /// Number of timed runs of each candidate.
     pub rounds: usize,
@@ -52,7 +52,7 @@ pub struct KernelBench {
     pub subject: &'static str,
     /// Machine that ran the benchmark.
     pub machine: Machine,
-    /// Rows of each of the six channels.
+    /// Number of timed rows in each of the six contact channels.
     pub rows_timed: usize,
     /// Number of timed runs of each candidate.
     pub rounds: usize,

@@ -163,7 +163,8 @@ impl StudyVariant {
         u64::from(self.points) * u64::from(self.folds.unwrap_or(1))
     }
 
-    /// Text of a scene with this combination and only the study `study` of the valid scene `text`.
+    /// Copy of the valid scene `text` with only the study called `study`. The number of points, the folds and the model of the copy are those of this
+    /// variant.
     fn applied_to(&self, text: &SceneText, study: &str) -> SceneText {
         let mut scene: Table = toml::from_str(&text.text).expect("the scene was parsed before");
         // The benchmark writes no report, and folds leave no single model to keep.

@@ -14,11 +14,11 @@ use crate::training::choice::Errors;
 
 /// Precomputed matrices of one left-out group. They do not depend on the penalty.
 struct Group {
-    /// Rows of the eigenvectors U of [`LeaveOut`] that belong to the group.
+    /// Rows for the group's samples in the eigenvectors U of [`LeaveOut`].
     vectors: Mat<f64>,
-    /// Diagonal block of the remainder R of [`LeaveOut`] that belongs to the group.
+    /// Rows and columns for the group's samples in R, the part of the centring matrix that U does not span.
     unspanned: Mat<f64>,
-    /// Rows of the product of the remainder R and the targets that belong to the group.
+    /// Rows for the group's samples in the product of R and the targets.
     residuals: Mat<f64>,
 }
 

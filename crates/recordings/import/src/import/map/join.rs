@@ -9,7 +9,8 @@ use crate::foreign::TableForm;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct JoinMap {
     pub(crate) name: String,
-    /// File relative to the source folder. `{path.PART}` is replaced by a part of the path of the main table.
+    /// File relative to the source folder. A placeholder such as `{path.run}` stands for the part called `run` in the path of the main table. The
+    /// rows of the main table become samples.
     pub(crate) file: String,
     pub(crate) form: TableForm,
     pub(crate) by: JoinBy,

@@ -9,7 +9,7 @@ const SIDES: [usize; 3] = [8, 32, 128];
 const LEAST: [f64; SIDES.len()] = [0.25, 0.5, 2.0];
 /// Number of averaged frames, because a gentle touch changes little and small cameras are noisy.
 pub(super) const FRAMES: u32 = 4;
-/// Least ratio of the change in contact to the change in the air.
+/// Ratio that a touch must exceed: greatest brightness change of a part in contact, divided by the greatest change in the air.
 const CHANGES: f64 = 2.0;
 
 /// Mean brightness of every part over several frames, in steps of an 8-bit pixel: for each of [`SIDES`], row by row.

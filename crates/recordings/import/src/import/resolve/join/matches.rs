@@ -84,7 +84,7 @@ impl JoinMatches {
         &self.name
     }
 
-    /// Warnings about the times of the join.
+    /// Warnings about a join by time, such as a wrong lag, matches across a pause, or few matches.
     pub(in crate::import) fn warnings(&self) -> Vec<ImportWarning> {
         let tables = self.tables.values();
         let used: usize = tables.clone().map(|uses| uses.used.len()).sum();
