@@ -15,7 +15,7 @@ use taceva_tests::structure::{
 /// late halts, and paths of a robot's client 320 and 1,200, studies by folds, and their curve of time against width 850 and 1,400,
 /// metrics of cells, LEDs, units of stamps and projects in C 750 and 2,000, lost frames of plugins, raw zeros and limits of sessions, and units of boxes 190 and 870, faults of taxels and of times, and models compared by
 /// faults 1,050 and 2,500, wanted widths, splits of scenes and repeated benchmarks 700 and 1,700, trials of users 1,000 and 2,300.
-const MOST_LINES: (usize, usize) = (268_800, 521_300);
+const MOST_LINES: (usize, usize) = (269_200, 521_300);
 
 /// Most lines of one file, with its comments and tests.
 const MOST_LINES_OF_A_FILE: usize = 400;
