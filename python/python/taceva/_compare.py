@@ -40,7 +40,7 @@ class Comparison:
         return self._form(forms[table])
 
     def figures(self) -> list[Figure]:
-        """Return all figures that show the results together."""
+        """Return all figures that show the results together, of every metric they have; ``metrics`` of `compare` does not limit them."""
         return figures_of(self._asked[0])
 
     def __str__(self) -> str:

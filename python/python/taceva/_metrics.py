@@ -40,6 +40,7 @@ class TactileMetrics:
         Names of the columns of the arrays; by default the six, ``Px Py Pz`` in mm and ``Fx Fy Fz`` in N.
     metrics
         Metrics and groups by name (see `metrics`); by default MAE, RMSE, bias, R² and sMAPE. ``accuracy`` is MAE, R² and sMAPE.
+        Bias is the mean of truth − prediction, and sMAPE a fraction from 0 to 2.
     units
         Units of channels other than the six, such as ``{"Mz": "N·mm"}``; ``1`` by default.
     periods

@@ -28,6 +28,8 @@ class Interval:
 class Score:
     """A score of one metric and channel. If it is undefined, ``value`` is ``None`` and ``reason`` states why.
 
+    ``reason`` is not about the interval: without an interval, `Result.to_dict` has the reason at ``["metrics"][metric][channel]["ci95"]``.
+
     A score acts as a number in its unit: ``float``, ``round``, ``format``, ``<``, ``<=``, ``>`` and ``>=`` accept it, and raise ``ValueError``
     if it is undefined. ``==`` compares whole scores: compare ``value`` with a number.
 
@@ -196,12 +198,18 @@ class Result(Mapping[tuple[str, str], Score]):
         return frame
 
     def to_latex(self) -> str:
-        """Return a LaTeX table for a paper; it needs ``booktabs``."""
+        """Return a LaTeX table for a paper; it needs ``booktabs``.
+
+        The table has 95 % intervals but not the number of samples, which `Comparison.to_latex` with ``"main"`` states.
+        """
         said = "".join(f"% {line}\n" for line in self._said())
         return said + _taceva.score_table([self._text], "tex")
 
     def figures(self) -> list[Figure]:
-        """Return all figures for which the scores have data, as in the report of the command."""
+        """Return all figures for which the scores have data.
+
+        ``taceva report`` also draws the samples: save them by `save_samples` beside the result.
+        """
         return figures_of([self._text])
 
     def save(self, path: str | os.PathLike[str]) -> None:
