@@ -255,17 +255,23 @@ fn joined_recordings_keep_the_first_and_the_last_of_their_days() {
     assert_eq!(joined.header().recorded_until, None);
 }
 
+/// Dataset of one sample with the pressing force `force`, N, of a sensor whose facts are changed by `change`.
+fn recorded(path: &Path, force: f64, change: impl FnOnce(&mut SensorFacts)) -> Dataset {
+    let mut spec = spec("D-K-1");
+    change(&mut spec.facts.sensor);
+    let mut recorder = Recorder::create(path, &spec).expect("created");
+    recorder.append(&sample("1", force)).expect("recorded");
+    recorder.close().expect("closed");
+    Dataset::open(path).expect("opens")
+}
+
 #[test]
 fn joined_recordings_state_the_presses_on_their_gel_only_if_they_agree() {
     let folder = tempfile::tempdir().expect("a folder");
     let after = |name: &str, presses: u32, force: f64| {
-        let path = folder.path().join(name);
-        let mut spec = spec("D-K-1");
-        spec.facts.sensor = spec.facts.sensor.with_presses_since_gel(presses);
-        let mut recorder = Recorder::create(&path, &spec).expect("created");
-        recorder.append(&sample("1", force)).expect("recorded");
-        recorder.close().expect("closed");
-        Dataset::open(&path).expect("opens")
+        recorded(&folder.path().join(name), force, |sensor| {
+            sensor.presses_since_gel = Some(presses);
+        })
     };
     let presses = |recordings| {
         let joined = Dataset::joined(recordings).expect("alike");
@@ -282,13 +288,9 @@ fn joined_recordings_state_the_presses_on_their_gel_only_if_they_agree() {
 fn joined_recordings_state_the_sides_of_their_leds_only_if_they_agree() {
     let folder = tempfile::tempdir().expect("a folder");
     let lit = |name: &str, red: PictureSide, force: f64| {
-        let path = folder.path().join(name);
-        let mut spec = spec("D-K-1");
-        spec.facts.sensor.leds.red = Some(red);
-        let mut recorder = Recorder::create(&path, &spec).expect("created");
-        recorder.append(&sample("1", force)).expect("recorded");
-        recorder.close().expect("closed");
-        Dataset::open(&path).expect("opens")
+        recorded(&folder.path().join(name), force, |sensor| {
+            sensor.leds.red = Some(red)
+        })
     };
     let leds = |recordings| {
         let joined = Dataset::joined(recordings).expect("alike");
