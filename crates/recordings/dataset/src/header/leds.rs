@@ -1,5 +1,7 @@
 //! Sides of the picture at which the LEDs of a sensor stand.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 /// Sides of the picture at which the LEDs of each colour stand; `None` for an unknown side.
@@ -35,6 +37,7 @@ pub struct Leds {
 /// use taceva_dataset::PictureSide;
 ///
 /// assert!(PictureSide::Left < PictureSide::Bottom);
+/// assert_eq!(PictureSide::Top.to_string(), "top");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -47,6 +50,17 @@ pub enum PictureSide {
     Top,
     /// Last row.
     Bottom,
+}
+
+impl fmt::Display for PictureSide {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            PictureSide::Left => "left",
+            PictureSide::Right => "right",
+            PictureSide::Top => "top",
+            PictureSide::Bottom => "bottom",
+        })
+    }
 }
 
 impl Leds {

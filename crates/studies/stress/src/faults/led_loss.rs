@@ -45,7 +45,7 @@ fn lost_side(leds: Leds) -> Option<PictureSide> {
 
 /// Remark on the side whose LEDs dim; `None` if no side is known.
 pub(crate) fn note_on(leds: Leds) -> Option<String> {
-    let side = format!("{:?}", lost_side(leds)?).to_lowercase();
+    let side = lost_side(leds)?;
     Some(format!(
         "only the colours that `leds` in [sensor] of the recording states for the {side} side dim, from that side"
     ))
