@@ -17,7 +17,7 @@ pub(crate) struct Gap {
 
 impl Gap {
     /// Measures the gap between two surfaces where they overlap. A point counts if, seen along z, it lies in the convex hull of the other surface.
-    /// Its nearest point may be any point of the other surface.
+    /// The nearest point may be any point of the other surface.
     ///
     /// A distance √(x² + y² + z²) is rounded at every step, and distances are summed exactly.
     ///
