@@ -164,7 +164,7 @@ impl CsvTable {
         Ok(absent)
     }
 
-    /// Text range of each cell of `rows`. The block is looked up again only for a row outside the previous block.
+    /// Text range of the cell of `column` in each of `rows`, with its row.
     fn cells(
         &self,
         column: usize,

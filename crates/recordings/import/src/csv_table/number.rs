@@ -76,7 +76,7 @@ fn parse_plain(cell: &[u8]) -> Option<f64> {
     Some(if negative { -magnitude } else { magnitude })
 }
 
-/// Parses up to eight bytes and a sign like [`parse_plain`], but all bytes together, to avoid unpredictable branches.
+/// Parses a sign and up to eight bytes like [`parse_plain`], but all bytes in one step, to avoid unpredictable branches.
 ///
 /// The eight-byte window ends at the end of the cell, so that the last digit is in the highest byte.
 fn parse_short(text: &[u8], cell: Range<usize>) -> Option<f64> {

@@ -117,7 +117,7 @@ impl<R: Read> Read for LineScan<R> {
     }
 }
 
-/// Reader that returns the cells of a quoted table as `quotation.rs` stores them, each with a line end, and finds rows.
+/// Reader of a quoted table. Returns its cells as `quotation.rs` stores them, each with a line end, and finds the start of each part.
 pub(super) struct QuotedScan<R> {
     reader: csv::Reader<R>,
     record: csv::ByteRecord,

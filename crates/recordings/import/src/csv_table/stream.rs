@@ -41,7 +41,7 @@ const BEGINNING: usize = 4_096;
 /// ```
 #[derive(Debug)]
 pub struct CsvStream {
-    /// Table of the columns without rows.
+    /// Table with the columns of the file and without rows.
     header: CsvTable,
     delimiter: u8,
     file: File,
@@ -84,7 +84,7 @@ impl CsvStream {
         })
     }
 
-    /// Table of the columns without rows.
+    /// Table with the columns of the file and without rows.
     pub fn header(&self) -> &CsvTable {
         &self.header
     }

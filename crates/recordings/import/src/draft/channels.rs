@@ -21,7 +21,7 @@ impl Offered<'_> {
         self.candidate.unit.map_or("?", |(unit, _)| unit)
     }
 
-    /// Keys of the unit and of the scale.
+    /// Map keys that state the unit and scale of the column.
     fn facts(&self) -> String {
         let scale = self.candidate.unit.and_then(|(_, source)| source.scale());
         let scale = scale.map(|scale| format!(", scale = {scale}"));
@@ -40,7 +40,7 @@ impl Offered<'_> {
         )
     }
 
-    /// Rank within a pose that is a list of lists: the position precedes the rotation.
+    /// Rank of a column whose cells are a pose as a list of lists: the position precedes the rotation.
     fn place_in_pose(&self) -> u32 {
         let is_place = self.candidate.channel.starts_with('P');
         let last = self.name.rsplit('/').next().filter(|_| is_place);

@@ -1,4 +1,4 @@
-//! Clips beside the rows of a table.
+//! Finds the video clips that belong to the rows of a table.
 
 use std::path::Path;
 
@@ -85,7 +85,7 @@ pub(super) fn bare<'g>(
     })
 }
 
-/// Frame lines for the clips beside `main`. A line has a gap if a clip has more or fewer frames than `main` has rows.
+/// Lines of `[frame]` for the clips beside `main`. A line has a gap if a clip has more or fewer frames than `main` has rows.
 pub(super) fn of(
     folder: &SourceFolder,
     groups: &[FileGroup],

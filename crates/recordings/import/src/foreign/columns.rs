@@ -54,7 +54,7 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
         false
     }
 
-    /// Attributes that the file states for a column, one entry for each different set among the groups.
+    /// Attributes that the file states for a column. Groups of the file with different attributes give one entry each.
     fn stated(&self, _name: &str) -> Vec<Stated> {
         Vec::new()
     }
@@ -82,7 +82,7 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
     /// Columns that seem to contain pictures.
     fn picture_columns(&self) -> Vec<PictureColumn>;
 
-    /// Class lists stated by the file, for columns whose numbers index them.
+    /// Columns whose numbers denote classes, each with the list of class names that the file states.
     fn classes(&self) -> Vec<(String, Vec<String>)> {
         Vec::new()
     }
@@ -127,7 +127,7 @@ pub(crate) enum PictureKind {
     Array {
         is_gray: bool,
         is_planar: bool,
-        /// Minimum and maximum of the first frames; `None` if the values are pixels.
+        /// Minimum and maximum number in the first frames; `None` if the numbers are already pixels.
         range: Option<[f64; 2]>,
     },
 }

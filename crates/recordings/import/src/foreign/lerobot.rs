@@ -73,7 +73,7 @@ impl ColumnSource for LeRobotRows {
         columns
     }
 
-    /// Depth maps with unknown codes.
+    /// Features that are not read: depth maps with unknown codes.
     fn unread(&self) -> Vec<String> {
         let features = self.dataset.features().iter();
         let depths = features.filter(|feature| {

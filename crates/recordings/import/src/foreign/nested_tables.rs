@@ -17,7 +17,7 @@ use taceva_dataset::internal::ImageKind;
 pub(super) trait NestedTable: ByteColumns + 'static {
     fn of_file(path: &Path) -> Result<Self, TableError>;
     fn all_names(&self) -> Vec<String>;
-    /// Metadata text of the file besides the schema.
+    /// Metadata of the file under `key`, outside the schema.
     fn beside(&self, key: &str) -> Option<&str>;
 }
 

@@ -34,7 +34,7 @@ pub(crate) trait Pictures: fmt::Debug + Send + Sync {
         None
     }
 
-    /// File of the picture at `index`, and the number of the picture in that file.
+    /// File that contains the picture at `index`, and the number of the picture in that file.
     fn origin(&self, index: u64) -> (&Path, u64) {
         (self.path(), index)
     }

@@ -13,7 +13,7 @@ const BLOCK: usize = 512;
 const NAME_BYTES: u64 = 64 << 10;
 /// Maximum number of members in an archive.
 pub(crate) const MEMBERS: u64 = 1 << 20;
-/// Maximum number of empty members, because a small archive can contain very many.
+/// Maximum number of empty members. A small archive can contain very many of them.
 pub(crate) const EMPTY_MEMBERS: u64 = 20_000;
 
 /// Error of an archive.
@@ -214,7 +214,7 @@ impl<T: Tape> Members<T> {
         }
     }
 
-    /// Copies the content of `member`, the last one returned, to `into`. Fails if the archive ends early.
+    /// Copies the content of `member`, which must be the last returned member, to `into`. Fails if the archive ends early.
     pub(crate) fn copy(
         &mut self,
         member: &Member,
@@ -364,7 +364,7 @@ fn number(field: &[u8]) -> Option<u64> {
     }
 }
 
-/// Length padded to whole blocks; `None` on overflow.
+/// `size` padded to whole blocks, bytes; `None` on overflow.
 fn filled(size: u64) -> Option<u64> {
     size.checked_next_multiple_of(BLOCK as u64)
 }

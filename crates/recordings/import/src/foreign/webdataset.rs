@@ -143,7 +143,7 @@ impl Shard {
 enum Field<'n> {
     Text(&'n str),
     Array(&'n str),
-    /// Field, and the pointer into the JSON of the field.
+    /// Name of the field, and the JSON pointer into its value.
     Json(&'n str, &'n str),
 }
 

@@ -9,7 +9,7 @@ use taceva_dataset::{Dataset, Digest, FrameEntry, SignalsInfo, Table, ViewFrames
 
 use crate::error::ImportError;
 
-/// Minimum number of different repeated pictures for a duplicate. No camera takes the same picture twice by chance.
+/// Minimum number of different pictures that duplicate rows share with the dataset. No camera takes the same picture twice by chance.
 const SAME_PICTURES: usize = 3;
 
 /// Rejects new rows of `table` that duplicate rows of `before`: the same sample name, or equal labels, time, frame and signals.

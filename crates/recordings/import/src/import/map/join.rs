@@ -5,17 +5,17 @@ use std::collections::BTreeMap;
 use super::TimeMap;
 use crate::foreign::TableForm;
 
-/// Joined table. Its columns are called `NAME.column`.
+/// Joined table. A map names its columns `NAME.column`, with the name of the join.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct JoinMap {
     pub(crate) name: String,
     /// File relative to the source folder. A placeholder such as `{path.run}` stands for the part called `run` in the path of the main table. The
-    /// rows of the main table become samples.
+    /// main table is the table whose rows become samples.
     pub(crate) file: String,
     pub(crate) form: TableForm,
     pub(crate) by: JoinBy,
     pub(crate) unmatched: Unmatched,
-    /// Rows that are excluded from matching: column and number.
+    /// Pairs of a column and a number. A row with this number in the column is excluded from matching.
     pub(crate) skip: Vec<(String, f64)>,
     /// Coordinate frame to which candidate rows are restricted.
     pub(crate) frame_id: Option<String>,

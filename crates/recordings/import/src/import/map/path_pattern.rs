@@ -31,7 +31,7 @@ enum Kind {
 }
 
 impl PathPattern {
-    /// Parses a pattern. Returns an error message.
+    /// Parses a pattern. Returns an error message for an invalid pattern.
     pub(super) fn parse(text: &str, of: Option<String>) -> Result<PathPattern, String> {
         let mut pieces = Vec::new();
         let mut rest = text;

@@ -246,7 +246,7 @@ impl Check<'_> {
         Ok((file, form))
     }
 
-    /// True if a truncated recording is to be read up to its end.
+    /// True if `cut` of the map asks for the complete messages of a truncated recording; false if truncation is an error.
     fn is_to_cut(
         &self,
         described: &WrittenForm,
