@@ -23,10 +23,10 @@ use taceva_video::Decoders;
 use views::MappedView;
 use zero::Zeros;
 
-/// Rule that drops rows in which a taxel did not measure.
+/// Name of the rule that leaves out rows with a number that means "not measured" among the taxels.
 pub(super) const SIGNAL_PLACEHOLDERS: &str = "placeholders of [signals]";
 
-/// Table with resolved columns.
+/// Table whose columns the map has resolved.
 pub(super) struct MappedTable<'a> {
     map: &'a ImportMap,
     table: ResolvedTable,
@@ -67,7 +67,7 @@ pub(super) struct MappedTable<'a> {
     pub(super) views: Vec<MappedView>,
     /// Taxel values of every row; `None` unless they are in columns of the table.
     signals: Option<ColumnSignals>,
-    /// Folders of the joined tables that name files.
+    /// Folders of the joined tables that name pictures.
     pub(super) named_by: NamedBy,
     /// True if the table has a column called `row`, which replaces the row number.
     pub(super) has_row_column: bool,
@@ -196,7 +196,7 @@ impl<'a> MappedTable<'a> {
         taceva_files::parent_of(self.table.path()).to_owned()
     }
 
-    /// Rules that drop the row.
+    /// Reasons to leave the row out: a join without a match, another coordinate frame, or rules of `[drop]`.
     pub(super) fn drop_reasons(&self, row: usize) -> Vec<String> {
         if let Some(join) = self.table.unmatched(row) {
             return vec![join.to_owned()];

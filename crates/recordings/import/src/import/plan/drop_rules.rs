@@ -77,7 +77,7 @@ impl Reading<'_> {
         Ok(())
     }
 
-    /// Warns of picture names that excluded no row. Marks such as `---` need not occur.
+    /// Warns of picture names in `[drop]` that excluded no row. Marks for a missing picture, such as `---`, cause no warning.
     pub(super) fn warn_of_unused_names(&mut self) {
         let is_used = |rule: &str| {
             let mut names = self.summary.dropped.keys().filter_map(|reason| {
