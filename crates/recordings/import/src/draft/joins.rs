@@ -217,7 +217,8 @@ fn rate_hz(cells: &[String], unit: &str) -> Option<f64> {
 /// Minimum rate of a joined table, as a fraction of the rate of the main table. Below it, main rows share a joined row.
 const NEAR_RATE: f64 = 0.9;
 
-/// True if the joined table, with the rate `other`, is slower than the main table, with the rate `own`, so that main rows share a row. Rates in Hz.
+/// True if the joined table, with the rate `other`, is so much slower than the main table, with the rate `own`, that main rows share a row. Rates in
+/// Hz.
 fn is_slower(own: f64, other: f64) -> bool {
     other < NEAR_RATE * own
 }

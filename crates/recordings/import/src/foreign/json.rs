@@ -10,7 +10,7 @@ use super::members::in_order;
 use crate::error::{ImportError, Place, table_error};
 use taceva_dataset::internal::{limits, read_capped, shown, utf8};
 
-/// Maximum number of rows that are searched for member names.
+/// Maximum number of rows that are searched for member names, and of leaves of the first row.
 const LISTED: usize = 100;
 
 /// Rows of a JSON file.

@@ -65,7 +65,7 @@ impl UnpackedArchive {
     ///
     /// # Errors
     /// [`ImportError::Table`] naming the member if it is damaged, truncated or larger than the archive, or if its name leads out of the folder. The
-    /// same error occurs for links, devices, sparse files, more than a million members, and a compressed archive that unpacks to over 128 times its
+    /// same error occurs for links, devices, sparse files and more than a million members. A compressed archive may unpack to at most 128 times its
     /// size plus 64 MiB. [`ImportError::Dataset`] if the disk is full, or `Cancelled`.
     pub fn open(
         archive: &Path,

@@ -69,8 +69,8 @@ impl ImportPlan {
     /// split.
     ///
     /// # Errors
-    /// [`ImportError::Dataset`] naming the key if the map contradicts the header, naming the row if the dataset already has it, or if `target` is not
-    /// an imported dataset. Errors of [`run`](ImportPlan::run). After an error `target` is unchanged.
+    /// [`ImportError::Dataset`] if `target` is not an imported dataset; naming the key if the map contradicts the header; naming the row if the
+    /// dataset already has it. Errors of [`run`](ImportPlan::run). After an error `target` is unchanged.
     ///
     /// ```
     /// # use taceva_core::{Channel, Channels, Clock, SilentProgress, SourceUnit};

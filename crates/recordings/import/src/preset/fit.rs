@@ -45,13 +45,13 @@ pub(super) fn text(layout: &Layout, folder: &SourceFolder) -> Result<String, Imp
     coloured(text, folder)
 }
 
-/// First file that matches `pattern`.
+/// Path of the first file that matches `pattern`; an error without a match.
 fn first(folder: &SourceFolder, pattern: &str) -> Result<std::path::PathBuf, ImportError> {
     let mut found = matching_files(folder, pattern)?;
     Ok(found.swap_remove(0))
 }
 
-/// First of `patterns` that a file matches.
+/// First of `patterns` that a file matches, or the first pattern if no file matches any.
 fn there<'p>(folder: &SourceFolder, patterns: &'p [String]) -> &'p str {
     let mut found = patterns
         .iter()
@@ -80,7 +80,7 @@ fn is_there(table: &ForeignTable, column: &str) -> bool {
     column.starts_with("path.") || ["group", "key", "row"].contains(&column) || table.has(base)
 }
 
-/// Text without the time column if the table lacks it.
+/// Text of the map, without the time column if the table lacks it.
 fn with_time(text: &str, table: &ForeignTable) -> String {
     let stated = text.split_once("[time]").and_then(|(_, time)| {
         let column = time
@@ -96,7 +96,7 @@ fn with_time(text: &str, table: &ForeignTable) -> String {
     }
 }
 
-/// Sets gray as the colour order if the first picture is gray, and removes a missing reference.
+/// Sets gray as the colour order if the first picture is gray. Sets the picture without contact to `unknown` if its file is missing.
 fn coloured(text: String, folder: &SourceFolder) -> Result<String, ImportError> {
     let reference = quoted(&text, "reference = \"").filter(|path| *path != "unknown");
     let text = match reference {
@@ -227,7 +227,7 @@ fn poseit(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     })
 }
 
-/// Selects the last number of the line as the force.
+/// Selects the last number of each line as the force.
 fn tool_force(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let line = CsvTable::read_headerless(&first(folder, "*/force/force_data_*.txt")?)?;
     let last = line.names().len().saturating_sub(1);

@@ -68,8 +68,7 @@ impl MappedTable<'_> {
         }
     }
 
-    /// Name of the file with the depth map of a row, for the task at position `task` of the map, and the place of this name; `None` for an empty
-    /// cell.
+    /// Name of the file with the depth map of a row, for the task at position `task` of the map, and the place of the name; `None` for an empty cell.
     pub(in crate::import) fn map_file(&self, task: usize, row: usize) -> Option<(&str, Place)> {
         let column = *self.tasks[task].first()?;
         let name = self.table.cell(row, column);

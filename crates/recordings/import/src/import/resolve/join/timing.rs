@@ -137,7 +137,7 @@ impl Timing {
         (self.swapped * SWAPPED <= self.rows).then_some((first, self.swapped))
     }
 
-    /// Time spans of the main tables and of the joined table `join` in words, with a hint if the units seem to differ by a factor.
+    /// Time spans of the main tables and of the joined table `join` in words, with a hint if their units seem to differ.
     pub(super) fn spans(&self, join: &str) -> Option<String> {
         let (own, joined) = self.own.zip(self.joined)?;
         let is_near = |ratio: f64| (ratio - 1.0).abs() < FACTOR;
