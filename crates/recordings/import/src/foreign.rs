@@ -240,7 +240,7 @@ impl ForeignTable {
         }
     }
 
-    /// Clip and frame number of each row for the feature `key`. Clip paths are relative to the folder of the table.
+    /// Clip and frame number of each row for the LeRobot feature `key`. Clip paths are relative to the folder of the table.
     pub(crate) fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, ImportError> {
         match self {
             ForeignTable::Columns(table) => table.clips(key),
@@ -248,7 +248,7 @@ impl ForeignTable {
         }
     }
 
-    /// Distance for each code of the feature `key`; `None` if the feature is not a depth map.
+    /// Distance for each code of the LeRobot feature `key`; `None` if the feature is not a depth map.
     pub(crate) fn depth(&self, key: &str) -> Option<DepthCodes> {
         match self {
             ForeignTable::Columns(table) => table.depth(key),

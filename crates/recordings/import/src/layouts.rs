@@ -147,7 +147,7 @@ impl Preset {
         self.0
     }
 
-    /// Name on the command line.
+    /// Name of the preset on the command line.
     pub fn name(self) -> &'static str {
         self.0.name
     }

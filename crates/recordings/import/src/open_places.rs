@@ -1,4 +1,4 @@
-//! Gaps of a drafted map.
+//! Finds the gaps (`"?"`) of a drafted map.
 
 /// Mark for a value that a draft leaves to the lab.
 pub const OPEN: &str = "\"?\"";

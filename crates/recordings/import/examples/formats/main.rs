@@ -26,7 +26,7 @@ struct Written {
     path: String,
     package: String,
     version: String,
-    /// Map beside this example; `None` for a fresh draft.
+    /// File name of a map beside this example; `None` for a fresh draft.
     #[serde(default)]
     map: Option<String>,
 }

@@ -1,4 +1,4 @@
-//! Cell bounds of plain text: each line is a row, and no cell is quoted.
+//! Finds cell bounds in text without quoted cells: each line is a row.
 
 use std::ops::Range;
 
@@ -110,7 +110,7 @@ impl RowSplitter {
         self.rows
     }
 
-    /// Number of line ends passed.
+    /// Number of line ends found, including blank lines.
     pub(super) fn lines(&self) -> u64 {
         self.lines
     }

@@ -22,7 +22,7 @@ const AHEAD: usize = 1 << 18;
 
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// CSV file of any length, read in parts: the offsets of its rows and the digest of its text.
+/// CSV file of any length, read in parts. Stores the offset of each part and the digest of the text.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;

@@ -1,4 +1,4 @@
-//! Splits tables without quotes in parallel, in parts that end at line ends.
+//! Splits the text of tables without quotes into cells, in parallel parts of whole lines.
 
 use std::num::NonZeroUsize;
 use std::ops::Range;

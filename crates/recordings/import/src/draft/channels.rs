@@ -1,4 +1,4 @@
-//! Lines of `[columns]` of a map: the best candidate for each channel, with the others in a comment.
+//! Lines of `[columns]` of a map: the best candidate column for each channel, with the other candidates in a comment.
 
 use std::fmt::Write;
 
@@ -61,7 +61,7 @@ impl Offered<'_> {
     }
 }
 
-/// Lines of all channels, in column order. A line has a gap if two candidates share the best rank.
+/// Lines of all channels, in column order. A line has a gap (`"?"`) if two candidates share the best rank.
 pub(super) fn lines(offered: &[Offered<'_>]) -> String {
     let mut text = String::new();
     for channel in taceva_core::distinct(offered.iter().map(|one| one.candidate.channel)) {

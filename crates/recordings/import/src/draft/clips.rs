@@ -85,7 +85,7 @@ pub(super) fn bare<'g>(
     })
 }
 
-/// Lines of `[frame]` for the clips beside `main`. A line has a gap if a clip has more or fewer frames than `main` has rows.
+/// Lines of `[frame]` for the clips beside `main`. A line has a gap (`"?"`) if a clip has more or fewer frames than `main` has rows.
 pub(super) fn of(
     folder: &SourceFolder,
     groups: &[FileGroup],
@@ -136,7 +136,7 @@ fn lines(clip: &str, index: String) -> FrameLines {
 /// Maximum ratio between the time spans of a clip and a table that may have been recorded together.
 const SPANS: f64 = 10.0;
 
-/// Map line with a gap, for a clip with more or fewer frames than `main` has rows. `None` if the counts agree or the clip cannot be opened.
+/// Map line with a gap (`"?"`), for a clip with more or fewer frames than `main` has rows. `None` if the counts agree or the clip cannot be opened.
 fn other_length(clip: &Path, main: &SeenTable<'_>) -> Option<String> {
     let video = Video::open(clip, &Decoders::default()).ok()?;
     let info = video.info();

@@ -15,7 +15,7 @@ use picture_lines::{in_array, in_table};
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::{decode, limits, read_capped};
 
-/// Number of cells of a column that are checked for names of files.
+/// Maximum number of cells of a column that are checked for names of files.
 const LOOKED_UP: usize = 20;
 
 /// Comment of the draft that lists the pictures that belong to no row of `main`.
@@ -32,9 +32,9 @@ pub(super) struct FrameLines {
     pub(super) is_gray: bool,
     /// Colour order, if the file states it.
     pub(super) order: Option<ChannelOrder>,
-    /// Lines of [path], if pictures are found by the end of a path.
+    /// Lines of `[path]`, if pictures are found by the end of a path.
     pub(super) path: Option<String>,
-    /// Lines of [drop].
+    /// Lines of `[drop]`.
     pub(super) drop: Option<String>,
 }
 
@@ -118,7 +118,7 @@ fn camera_folders<'t>(
     })
 }
 
-/// Rule that drops rows without a picture name. Recorders that allocate rows in advance leave empty rows at the end.
+/// Line of `[drop]` for rows without a picture name. Recorders that allocate rows in advance leave empty rows at the end.
 fn empty_rows(column: &SeenColumn, rows: usize) -> Option<String> {
     (column.empty > 0).then(|| {
         format!(
@@ -314,7 +314,7 @@ pub(super) fn are_pairs(tables: &FileGroup, files: &FileGroup) -> bool {
         && files.parts.names == tables.parts.names
 }
 
-/// Line `index` with a gap, for pictures in one file that several tables share. By default each table would begin with the first picture.
+/// Line `index` with a gap (`"?"`), for pictures in one file that several tables share. By default each table would begin with the first picture.
 pub(super) fn counted_through(tables: &FileGroup) -> String {
     format!(
         "index = \"?\"   # {} tables share this file: name the column that numbers its pictures",

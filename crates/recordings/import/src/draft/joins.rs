@@ -16,7 +16,7 @@ pub(super) struct SeenJoin<'t, 'g> {
 }
 
 impl SeenJoin<'_, '_> {
-    /// True if cells of the joined table are interpolated, which excludes texts.
+    /// True if cells of the joined table are interpolated. Only numbers can be interpolated.
     pub(super) fn is_interpolated(&self) -> bool {
         self.lines.iter().any(|line| line.starts_with(LINEAR))
     }
@@ -25,7 +25,7 @@ impl SeenJoin<'_, '_> {
 /// Beginning of the line `pick` of a join that interpolates.
 const LINEAR: &str = "pick = \"linear\"";
 
-/// Tables with channels that `main` lacks, each with its join.
+/// Joins with the tables that have channels which `main` lacks.
 pub(super) fn of<'t, 'g>(
     main: &SeenTable<'_>,
     tables: &'t [SeenTable<'g>],

@@ -266,7 +266,7 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
     ended(text)
 }
 
-/// Joins that an active line of the map uses, and the tables of the unused joins as a map writes them.
+/// Splits the joins `found`: first the joins that an uncommented line of the map uses, then the values of `table` of the other joins.
 fn used_joins<'t, 'g>(
     main: &SeenTable<'_>,
     found: Vec<SeenJoin<'t, 'g>>,

@@ -67,7 +67,7 @@ pub(super) struct SeenTime<'t> {
 }
 
 impl SeenTime<'_> {
-    /// Comment on the unit of the time.
+    /// Comment with the reason why the unit of the time may be different; empty for a certain unit.
     pub(super) fn mark(&self) -> String {
         let guess = self.guess.map(|guess| format!("   # {guess}"));
         guess.unwrap_or_default()

@@ -45,7 +45,7 @@ impl<'a> Pictures<'a> {
         })
     }
 
-    /// View of the pictures, if samples have several.
+    /// Name of the view, if samples have several pictures.
     pub(super) fn view(&self) -> Option<String> {
         self.dataset.view()
     }

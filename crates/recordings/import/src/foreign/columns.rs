@@ -95,12 +95,12 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
     /// Pictures of the rows, by row number.
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String>;
 
-    /// Clip and frame number of each row for the feature `key`. Clip paths are relative to the folder of the table.
+    /// Clip and frame number of each row for the LeRobot feature `key`. Clip paths are relative to the folder of the table.
     fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, String> {
         Err(format!("`{key}` names no clip: this table has no clips"))
     }
 
-    /// Distance for each code of the feature `key`; `None` if the feature is not a depth map.
+    /// Distance for each code of the LeRobot feature `key`; `None` if the feature is not a depth map.
     fn depth(&self, _key: &str) -> Option<DepthCodes> {
         None
     }
@@ -314,7 +314,7 @@ impl ColumnTable {
         self.source.element_names(column)
     }
 
-    /// Clip and frame number of each row for the feature `key`. Clip paths are relative to the folder of the table.
+    /// Clip and frame number of each row for the LeRobot feature `key`. Clip paths are relative to the folder of the table.
     pub(super) fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, ImportError> {
         let clips = guarded(|| self.source.clips(key)).and_then(|found| found);
         clips.map_err(|problem| ImportError::table(&self.path, problem))

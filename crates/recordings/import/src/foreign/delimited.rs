@@ -65,8 +65,8 @@ impl DelimitedTable {
         }
     }
 
-    /// Example of a cell whose decimal point may be a digit separator, with the number of these cells in the column. `None` unless the column also contains
-    /// whole numbers, because columns of fractions with three digits are common.
+    /// Example of a cell whose decimal point may be a digit separator, and the number of such cells in the column. `None` unless the column also
+    /// contains whole numbers, because columns of fractions with three digits are common.
     pub(crate) fn grouped_digits(&self, name: &str) -> Option<(String, u64)> {
         if self.form.thousands.is_some() || self.form.decimal != '.' {
             return None;

@@ -24,10 +24,10 @@ const PICTURES: [&str; 6] = [
     "foxglove.CompressedImage",
 ];
 
-/// Filename extensions of recordings.
+/// Filename extensions of recordings of messages.
 const ENDINGS: [&str; 3] = ["mcap", "db3", "bag"];
 
-/// True for the filename extension of a recording.
+/// True for the filename extension of a recording of messages.
 pub(crate) fn is_recording(ending: &str) -> bool {
     ENDINGS.contains(&ending)
 }
@@ -160,7 +160,7 @@ impl MessageRows {
     }
 }
 
-/// Colour order of a sample form; `None` if the form states none.
+/// Colour order of pictures of the form `form`; `None` if the form states none.
 fn order_of(form: SampleForm) -> Option<ChannelOrder> {
     match form {
         SampleForm::Mono8 | SampleForm::Mono16 => Some(ChannelOrder::Gray),

@@ -42,7 +42,7 @@ macro_rules! nested_table {
 nested_table!(ParquetTable);
 nested_table!(ArrowTable);
 
-/// Rows of a nested table.
+/// Rows of a Parquet or Arrow table, whose cells may be nested.
 #[derive(Debug)]
 pub(super) struct NestedRows<T> {
     table: Arc<T>,

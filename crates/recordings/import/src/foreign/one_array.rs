@@ -1,4 +1,4 @@
-//! One array of a file of arrays, read by rows.
+//! Reads one array of a file of arrays by rows.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};

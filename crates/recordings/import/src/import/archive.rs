@@ -1,4 +1,4 @@
-//! Recordings in a tar archive.
+//! Unpacks recordings in a tar archive.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufReader, Read};
@@ -13,7 +13,7 @@ use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{open_regular, shown_path};
 use taceva_files::TemporaryFolder;
 
-/// Limit of the unpacked size of a compressed archive: `GROWTH` times the packed size, plus `GROWTH_BYTES`.
+/// Limit of the unpacked size of a compressed archive, bytes: `GROWTH` times the packed size, plus `GROWTH_BYTES`.
 const GROWTH: u64 = 128;
 const GROWTH_BYTES: u64 = 64 << 20;
 /// Name prefix of the folder of unpacked files.

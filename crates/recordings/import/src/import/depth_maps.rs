@@ -30,7 +30,7 @@ pub(super) struct PlannedMaps {
 #[derive(Debug)]
 enum MapSource {
     File(PathBuf, Place),
-    /// Position in the array.
+    /// Depth map at this position in the array, from 0.
     Row(u64),
 }
 
@@ -224,7 +224,7 @@ fn size_of(bytes: &[u8]) -> [usize; 2] {
     parts_of_map(bytes).map_or([0; 2], |parts| [parts.rows, parts.columns])
 }
 
-/// Size of the first map of `before` for the task called `name`.
+/// Number of rows and columns of the first depth map of `before` for the task called `name`.
 fn size_of_first(before: &Dataset, name: &str) -> Result<Option<[usize; 2]>, ImportError> {
     for row in 0..before.table().rows() {
         if let Some(bytes) = before.depth_map_bytes(name, row)? {

@@ -41,7 +41,7 @@ impl PatternPart {
 /// Name of a row's frame.
 pub(super) enum FrameName {
     File(String),
-    /// Position in a file; `None` for the file of the table.
+    /// Frame at this position in a file; `None` for the file of the table.
     Within(Option<String>, u64),
 }
 

@@ -15,7 +15,7 @@ pub(super) struct PlannedFrames {
     pub(super) view: Option<String>,
     pub(super) order: ChannelOrder,
     pub(super) reference: Option<FrameSource>,
-    /// One entry for each kept row.
+    /// Source of the frame of each kept row.
     pub(super) of_rows: Vec<PlannedFrame>,
 }
 

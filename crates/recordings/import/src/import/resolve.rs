@@ -46,7 +46,7 @@ pub(super) struct Resolved {
     /// Columns of the main table that the map does not mention.
     pub(super) unmentioned: Vec<String>,
     pub(super) joins: Vec<JoinMatches>,
-    /// Unwritten chunks of the arrays read, by file and array.
+    /// Number of unwritten chunks of the arrays read, by file and array.
     pub(super) absent_chunks: BTreeMap<String, u64>,
     /// Main table, as read from its file.
     pub(super) main: ForeignTable,
@@ -63,7 +63,7 @@ pub(super) struct Resolved {
     pub(super) named_by: NamedBy,
 }
 
-/// Sources of the cells of a row.
+/// Sources of cells: the main table, the parts of its path, and the joined tables.
 struct Sources<'a> {
     map: &'a ImportMap,
     main: ForeignTable,

@@ -38,7 +38,7 @@ pub(super) struct MappedTable<'a> {
     pub(super) unread_topics: Vec<String>,
     /// Coordinate frames of the labels.
     pub(super) coordinate_frames: CoordinateFrames,
-    /// Unwritten chunks of the arrays read, by file and array.
+    /// Number of unwritten chunks of the arrays read, by file and array.
     pub(super) absent_chunks: BTreeMap<String, u64>,
     truth: Vec<usize>,
     sample: Option<usize>,

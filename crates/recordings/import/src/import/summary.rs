@@ -138,7 +138,7 @@ pub struct JoinSummary {
 }
 
 impl ImportSummary {
-    /// Left-out items, in the form that the header of the dataset stores.
+    /// Numbers of left-out items, in the form that the header of the dataset stores.
     pub(super) fn left_out(&self) -> LeftOut {
         let of_joins = |count: fn(&JoinSummary) -> u64| {
             let joins = self.joins.iter();

@@ -13,7 +13,7 @@ use crate::source_folder::SourceFolder;
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::{decode, limits, read_capped};
 
-/// Map text adapted to the folder.
+/// Text of the map of `layout`, adapted to `folder`.
 pub(super) fn text(layout: &Layout, folder: &SourceFolder) -> Result<String, ImportError> {
     let mut text = format!("{}\n", layout.map.trim_end());
     for instead in &layout.instead {
@@ -159,7 +159,7 @@ fn bristol(text: String, folder: &SourceFolder) -> Result<String, ImportError> {
     })
 }
 
-/// Selects the first sensor of the file, and the left-hand pictures if there are two.
+/// Selects the first sensor of the file in the map, and the left-hand pictures if there are two.
 fn touchd(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let path = folder.file(folder.path(), "all_data_direction.json")?;
     let wrong = |problem: &str| ImportError::table(&path, problem);
@@ -193,7 +193,7 @@ fn touchd(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
         .replace("image_{/0}.png", name))
 }
 
-/// Sets the actual column names of `f_t.csv`, and the header of `stages.csv` if it has one.
+/// Sets the actual column names of `f_t.csv` in the map, and `header` for `stages.csv` if the file has one.
 fn poseit(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let path = first(folder, "*/f_t.csv")?;
     let forces = CsvTable::read(&path)?;
@@ -234,7 +234,7 @@ fn tool_force(text: &str, folder: &SourceFolder) -> Result<String, ImportError> 
     Ok(text.replace("\"force.0\"", &format!("\"force.{last}\"")))
 }
 
-/// Sets the names of the left gel and its pictures.
+/// Sets the names of the left gel and its pictures in the map.
 fn univtac(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let table = first_table(text, folder)?;
     let text = match table.has("/tactile/left_gsmini/pose") || table.has("/tactile/left_gsmini/rgb")
@@ -250,7 +250,7 @@ fn univtac(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     Ok(kept(&text, |_, column| is_there(&table, column)))
 }
 
-/// Sets the store, its `data` group, the first camera and the ends of episodes.
+/// Sets the store, its `data` group, the first camera and the ends of episodes in the map.
 fn diffusion_zarr(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let store = first(folder, "*.zarr")?;
     let name = store

@@ -14,7 +14,7 @@ use taceva_core::SilentProgress;
 use taceva_dataset::Dataset;
 use taceva_import::{ImportMap, ImportPlan};
 
-/// Maximum time of an import. `MEMORY` is its maximum memory.
+/// Maximum time of an import. `MEMORY_KIB` is its maximum memory, KiB.
 const TIME: Duration = Duration::from_secs(10);
 const MEMORY_KIB: u64 = 512 << 10;
 

@@ -1,4 +1,4 @@
-//! Tests of drafts for recordings whose contact points only coordinates name.
+//! Tests of drafts for recordings whose contact points are identified only by coordinates.
 
 use super::drafts::{drafted, filled, wave, waves};
 use super::{lab, line, planned};

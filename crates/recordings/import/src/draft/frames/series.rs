@@ -68,7 +68,7 @@ impl<'g> Series<'g> {
         })
     }
 
-    /// The first and the last number.
+    /// Least and greatest number of the pictures.
     fn ends(&self) -> (u64, u64) {
         let first = self.numbers.first().copied().unwrap_or_default();
         (first, self.numbers.last().copied().unwrap_or(first))
@@ -307,7 +307,7 @@ pub(super) fn of(
     vec![first]
 }
 
-/// Line `pattern` with a gap, for several series that are not views of one sample, such as colour and depth.
+/// Line `pattern` with a gap (`"?"`), for several series that are not views of one sample, such as colour and depth.
 const SEVERAL: &str =
     "pattern = \"?\"   # several series fit the rows: name the series of the sensor";
 

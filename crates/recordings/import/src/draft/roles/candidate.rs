@@ -39,9 +39,9 @@ const UNSCALED: [&str; 5] = ["adc", "count", "counts", "lsb", "raw"];
 /// Reason to take a column for a channel; the most certain reason first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Reason {
-    /// The name of the channel itself.
+    /// The column has the name of the channel.
     Name,
-    /// The name of the channel with a unit.
+    /// The column has the name of the channel with a unit.
     NameWithUnit,
     /// The last part of the name states quantity and axis, with no other word.
     Words,
@@ -49,9 +49,9 @@ pub(crate) enum Reason {
     MoreWords,
     /// The name of the parent states the quantity.
     Parent,
-    /// Force without an axis, usually the normal force.
+    /// The name states a force without an axis, which is usually the normal force.
     NoAxis,
-    /// Position among the numbers of a wrench or a pose.
+    /// The name states a wrench or a pose, and the position of the number in it gives the channel.
     Position,
     /// The name states only an axis, or the number of columns suggests the channel.
     Guess,
@@ -128,7 +128,7 @@ impl Quantity {
         }
     }
 
-    /// Words for the quantity.
+    /// Words in column names that denote the quantity.
     fn words(self) -> &'static [&'static str] {
         match self {
             Quantity::Force => &["force", "forces", "f", "load", "loadcell"],
@@ -171,7 +171,7 @@ impl Quantity {
     }
 }
 
-/// Words that do not indicate a quantity.
+/// Words in column names that do not denote a quantity.
 const NEUTRAL: [&str; 22] = [
     "sensor",
     "meas",

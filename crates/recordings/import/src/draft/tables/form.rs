@@ -95,7 +95,7 @@ pub(super) fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, Stri
     }
 }
 
-/// Number of lines of a text that must consist of numbers to be taken for a table.
+/// Number of leading lines of a text that must consist of numbers, so that the text is taken for a table.
 const LINES: usize = 20;
 
 /// True if each cell in the first lines of a text is a number. Such a text is a table without a header.

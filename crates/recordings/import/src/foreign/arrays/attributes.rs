@@ -1,4 +1,4 @@
-//! Attributes of arrays in a file.
+//! Reads attributes of arrays in a file.
 
 use taceva_arrays::{ArrayError, ArrayFile};
 
@@ -20,7 +20,7 @@ pub(crate) fn stated(file: &ArrayFile, array: &str) -> Stated {
     }
 }
 
-/// Arrays with unwritten chunks, and the number of unwritten chunks of each.
+/// Arrays among `names` that have unwritten chunks, each with the number of these chunks.
 pub(super) fn absent_chunks<'n>(
     file: &ArrayFile,
     names: impl Iterator<Item = &'n str>,

@@ -1,4 +1,4 @@
-//! Columns of arrays as texts.
+//! Reads columns of arrays as texts.
 
 use taceva_arrays::{ArrayInfo, ArrayValues};
 use taceva_tables::Cell;

@@ -120,7 +120,7 @@ fn refuse_same_pictures(
     )))
 }
 
-/// Origin of a new row, if its table states the origin.
+/// Names a new row in a message: by the row and table of its origin, otherwise by its number among the new rows.
 fn origin(table: &Table, row: usize, old: usize) -> String {
     match (&table.source_table()[row], table.source_row()[row]) {
         (Some(source), Some(number)) => format!("row {number} of {}", shown(source)),

@@ -49,7 +49,7 @@ impl ColumnMap {
     }
 }
 
-/// Columns of the ids.
+/// Columns of the ids of samples, such as the contact point.
 ///
 /// ```
 /// use taceva_import::IdMap;

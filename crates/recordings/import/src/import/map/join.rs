@@ -42,7 +42,7 @@ pub(crate) struct TimeJoin {
     /// Time of the joined table.
     pub(crate) time: TimeMap,
     pub(crate) pick: Pick,
-    /// Maximum time difference, ms.
+    /// Maximum time difference between matched rows, ms.
     pub(crate) tolerance_ms: f64,
     pub(crate) lag: Lag,
 }
@@ -50,22 +50,22 @@ pub(crate) struct TimeJoin {
 /// Offset of the clock of the joined table from the clock of the main table, ms.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Lag {
-    /// Constant for all rows.
+    /// Constant offset, ms.
     Fixed(f64),
-    /// Offset for each file, by the path of the main or the joined table.
+    /// Offset for each file, ms, by the path of the main or the joined table.
     Files(BTreeMap<String, f64>),
-    /// Offset in this column of the main table.
+    /// Column of the main table that contains the offset, ms.
     Column(String),
 }
 
 impl TimeJoin {
-    /// Maximum time difference, s.
+    /// Maximum time difference between matched rows, s.
     pub(crate) fn tolerance_s(&self) -> f64 {
         self.tolerance_ms / 1e3
     }
 }
 
-/// Choice among the rows near a time.
+/// Rule that selects rows near a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Pick {
@@ -78,7 +78,7 @@ pub(crate) enum Pick {
 }
 
 impl Pick {
-    /// Name of the choice in a map.
+    /// Name of the rule in a map.
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Pick::Nearest => "nearest",

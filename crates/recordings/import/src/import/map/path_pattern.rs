@@ -24,7 +24,7 @@ enum Kind {
     Free,
     /// Leading folders, each with its `/`, as many as the rest of the pattern allows, possibly none.
     Folders,
-    /// Digits.
+    /// One or more digits.
     Digits,
     /// Decimal number with optional sign and exponent.
     Number,

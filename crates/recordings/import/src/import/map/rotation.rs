@@ -20,7 +20,7 @@ pub(crate) fn turn_in(unit: SourceUnit) -> f64 {
 /// Channels that together form a rotation.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct RotationMap {
-    /// Rotation vector x, y, z, or quaternion x, y, z, w.
+    /// Channels of a rotation vector x, y, z, or of a quaternion x, y, z, w.
     pub(crate) channels: Vec<String>,
     /// Column of each channel.
     pub(crate) columns: Vec<String>,

@@ -11,7 +11,7 @@ use crate::csv_table::text_form::TextForm;
 use crate::foreign::{TableForm, is_recording};
 use taceva_dataset::DatasetError;
 
-/// Table: only a path, or a section with keys.
+/// Table as written in a map: only a path, or a section with keys.
 #[derive(Deserialize)]
 #[serde(
     untagged,

@@ -15,7 +15,7 @@ pub(crate) struct ZeroMap {
     pub(crate) rows: ZeroRows,
     /// Column whose equal cells form a block with a separate zero; `None` for one block per table.
     pub(crate) block: Option<String>,
-    /// Indices of the channels, from 0.
+    /// Positions of the corrected channels among the channels of the map, from 0.
     pub(crate) channels: Vec<usize>,
 }
 

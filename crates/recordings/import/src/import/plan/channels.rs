@@ -1,4 +1,4 @@
-//! Channels in the summary of an import.
+//! Describes the channels in the summary of an import.
 
 use super::reading::Reading;
 use crate::import::summary::Conversion;

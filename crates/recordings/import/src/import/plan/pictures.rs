@@ -1,4 +1,4 @@
-//! Files that contain the pictures of rows.
+//! Opens the files that contain the pictures of rows, and checks the numbers of pictures.
 
 use std::path::Path;
 use std::sync::Arc;

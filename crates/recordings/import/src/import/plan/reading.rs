@@ -38,7 +38,7 @@ pub(super) struct Reading<'a> {
     pub(super) joins: Vec<JoinMatches>,
     /// Coordinate frames of the labels of all tables.
     pub(super) coordinate_frames: CoordinateFrames,
-    /// Unwritten chunks, by file and array.
+    /// Number of unwritten chunks, by file and array.
     pub(super) absent_chunks: BTreeMap<String, u64>,
     pub(super) samples: HashSet<String>,
     /// Images that rows name, including dropped rows.

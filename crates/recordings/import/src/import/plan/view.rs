@@ -1,4 +1,4 @@
-//! Pictures of one view during reading.
+//! Reads the pictures of one view.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use crate::import::map::FrameMap;
 use crate::import::references::References;
 use taceva_dataset::internal::shown_path;
 
-/// Pictures of one view during reading.
+/// State of reading the pictures of one view.
 pub(super) struct ViewReading<'a> {
     pub(super) map: &'a FrameMap,
     /// Base folder of the pictures of the table being read.

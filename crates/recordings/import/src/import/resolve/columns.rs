@@ -1,4 +1,4 @@
-//! Column names in a map.
+//! Interprets column names in a map.
 
 use crate::foreign::ForeignTable;
 use crate::import::map::{FrameNames, ImportMap};

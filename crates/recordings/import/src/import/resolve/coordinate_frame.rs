@@ -144,7 +144,7 @@ fn is_quantity(prefix: &str) -> bool {
         .any(|known| word.eq_ignore_ascii_case(known))
 }
 
-/// Frame name without a leading slash: ROS 1 writes `/tool0` for `tool0`.
+/// Name of a coordinate frame without a leading slash: ROS 1 writes `/tool0` for `tool0`.
 fn comparable(cell: &str) -> &str {
     let cell = cell.trim();
     cell.strip_prefix('/').unwrap_or(cell)

@@ -1,4 +1,4 @@
-//! Channels computed as a matrix times columns.
+//! Computes channels as a matrix times columns.
 
 use super::table::ResolvedTable;
 use crate::csv_table::CsvTable;

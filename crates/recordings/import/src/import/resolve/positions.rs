@@ -1,4 +1,4 @@
-//! Columns of taxels that a map names by position.
+//! Finds the names of taxel columns that a map gives by position.
 
 use crate::error::{ImportError, table_error};
 use crate::foreign::ForeignTable;

@@ -12,7 +12,7 @@ use taceva_dataset::internal::shown;
 /// Cells of the columns that a map names.
 pub(in crate::import) struct ResolvedTable {
     path: PathBuf,
-    /// Path relative to the lab's folder.
+    /// Path of the main table relative to the lab's folder.
     relative: String,
     names: Vec<String>,
     /// Cells of the table: for each column, the cell of each row.

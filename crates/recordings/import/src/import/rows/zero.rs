@@ -13,7 +13,7 @@ const FREE_FALL: f64 = 9.806_65;
 /// Maximum spread of the zero rows, as a fraction of the spread of all rows of a block. The import warns of a greater spread.
 const SPREAD: f64 = 0.2;
 
-/// Zero of each block of rows.
+/// Zeros that are subtracted from the channels of each block of rows.
 pub(in crate::import) struct Zeros {
     /// Index of the block of each row.
     blocks: Vec<usize>,

@@ -28,7 +28,7 @@ pub(super) struct Candidates {
     pub(super) by_time: Vec<(f64, usize)>,
     /// For a join by time: number of rows with a time. `by_time` contains only the first of several rows with equal times.
     pub(super) timed: usize,
-    /// For a join by time: usual step between rows, s.
+    /// For a join by time: usual time step between rows, s, which is the third quartile of the steps.
     pub(super) usual_s: Option<f64>,
     /// For a join with `until`: number and row, in order of the number.
     pub(super) until: Vec<(u64, usize)>,
