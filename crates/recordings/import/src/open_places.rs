@@ -14,7 +14,7 @@ pub fn code(line: &str) -> &str {
     end.map_or(line, |(at, _)| &line[..at])
 }
 
-/// Number of gaps in `map`, not counting comments.
+/// Number of gaps (`"?"`) in `map`, not counting comments.
 pub fn open_places(map: &str) -> usize {
     map.lines()
         .map(|line| code(line).matches(OPEN).count())

@@ -296,7 +296,7 @@ fn empty_cells(table: &ForeignTable, name: &str) -> usize {
 /// Number of rows, spread over the table, that are searched for a non-zero number.
 const SPREAD: usize = 2_000;
 
-/// Adds the unit stated by the file to `candidates`. Leaves a gap for a force or a torque that is 0 in all examined rows.
+/// Adds the unit stated by the file to `candidates`. Leaves a gap (`"?"`) for a force or a torque that is 0 in all examined rows.
 fn complete(table: &ForeignTable, name: &str, candidates: &mut [Candidate]) {
     let stated = table.stated(name);
     let stated = stated.iter().find_map(|stated| stated.unit.as_deref());
@@ -340,7 +340,7 @@ fn complete(table: &ForeignTable, name: &str, candidates: &mut [Candidate]) {
 /// Minimum number of examined rows for the doubt that a channel with only zeros was measured.
 const LEAST_ZEROS: usize = 4;
 
-/// Leaves a gap for each channel that another column marks as invalid in all examined rows: `force_valid` for `force_z`.
+/// Leaves a gap (`"?"`) for each channel that another column marks as invalid in all examined rows: `force_valid` for `force_z`.
 fn open_invalid(columns: &mut [SeenColumn]) {
     let is_false = |cell: &String| {
         matches!(

@@ -60,7 +60,7 @@ pub(super) struct MappedTable<'a> {
     /// Columns of each task.
     tasks: Vec<Vec<usize>>,
     time: Option<usize>,
-    /// Columns with the original table, row and picture; `None` if the map does not name them.
+    /// Columns with the path of the original table, the row number, and the path of the picture; `None` if the map does not name them.
     origin: [Option<usize>; 3],
     flags: Option<usize>,
     /// Pictures of the rows, for each view.

@@ -30,7 +30,7 @@ pub(super) struct FoundSignals<'a> {
 
 #[derive(Debug)]
 enum Found {
-    /// Values in memory, row by row.
+    /// Taxel values in memory, row by row.
     Numbers(Vec<f32>),
     /// Array that is read when the import runs, and the wanted rows.
     Array(ArraySignals, Vec<u64>),

@@ -53,9 +53,9 @@ pub enum ImportWarning {
     RepeatedStamps {
         /// Name of the join in the map.
         join: String,
-        /// Number of rows with a time.
+        /// Number of rows of the joined table that have a time.
         rows: u64,
-        /// Number of different times. The first row of each time is used.
+        /// Number of different times in the joined table. The join uses the first row of each time.
         times: u64,
     },
     /// Only the complete messages of a truncated recording are read.

@@ -19,7 +19,7 @@ pub(crate) struct Candidate {
     pub(crate) unit: Option<(&'static str, UnitSource)>,
     /// True for counts and volts, which need a scale factor to become the channel.
     pub(crate) is_unscaled: bool,
-    /// Reason for a gap in the line of the channel, if only the lab knows whether the channel was measured.
+    /// Reason for a gap (`"?"`) in the line of the channel, if only the lab knows whether the channel was measured.
     pub(crate) open: Option<String>,
 }
 

@@ -14,7 +14,7 @@ use crate::foreign::{BeforeCut, ForeignTable, TableForm, cell_list};
 /// Map key for a table whose column names are the numbers from 0.
 pub(super) const NUMBERED_HEADER: &str = "header = true";
 
-/// Map key with a gap, and a comment, for a recording that was cut or not closed.
+/// Map key with a gap (`"?"`), and a comment, for a recording that was cut or not closed.
 pub(super) fn cut_key(before: BeforeCut) -> (&'static str, String) {
     let BeforeCut { messages, end } = before;
     let comment = format!(

@@ -14,7 +14,7 @@ const MOST: usize = 4_096;
 /// Minimum number of numbered columns that are taken for taxels.
 const LEAST_RUN: usize = 8;
 
-/// Taxels of a table, with the values of their map keys.
+/// Taxels of a table, as values of the keys of `[signals]` in a map.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Taxels {
     /// Value of `from`, as TOML.

@@ -112,13 +112,13 @@ impl IdMap {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct OriginMap {
-    /// Column with the original table.
+    /// Column with the path of the original table.
     pub(crate) table: Option<String>,
     /// Column with the row number in the original table, from 0.
     pub(crate) row: Option<String>,
-    /// Column with the original picture.
+    /// Column with the path of the original picture.
     pub(crate) frame: Option<String>,
-    /// Column with the original picture of each view, if rows have several pictures.
+    /// Column with the path of the original picture, for each view, if rows have several pictures.
     pub(crate) frames: BTreeMap<String, String>,
 }
 

@@ -16,7 +16,7 @@ pub(super) struct ViewReading<'a> {
     pub(super) map: &'a FrameMap,
     /// Base folder of the pictures of the table being read.
     pub(super) base: PathBuf,
-    /// Conversion of the depth map in the clips of the table being read; `None` for pictures.
+    /// Conversion of the codes of a depth map to pixels, for the clips of the table being read; `None` for pictures.
     pub(super) depth: Option<DepthPixels>,
     /// Opened files with pictures.
     pub(super) opened: BTreeMap<PathBuf, Arc<dyn Pictures>>,

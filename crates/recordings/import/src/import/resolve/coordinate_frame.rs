@@ -121,7 +121,7 @@ fn without_ending(column: &str) -> Option<&str> {
     Some(&column[..column.len() - ending.len()])
 }
 
-/// Prefix that the column of coordinate frames `column` shares with the columns in these frames: empty, or `wrench.`.
+/// Beginning of the names of the columns whose frame `column` states: empty, or `wrench.`.
 fn prefix(column: &str) -> &str {
     let mut prefix = without_ending(column).unwrap_or(column);
     for part in ["child_", "header.", "header/", "header_"] {

@@ -20,7 +20,7 @@ pub(in crate::import) struct MappedView {
     pub(super) origin: Option<usize>,
     /// Pictures inside the file of the table; `None` for separate files.
     pub(in crate::import) pictures: Option<Arc<dyn Pictures>>,
-    /// Conversion of the depth map in the clips; `None` for pictures.
+    /// Conversion of the codes of a depth map in the clips to pixels; `None` for pictures.
     pub(in crate::import) depth: Option<DepthPixels>,
 }
 
