@@ -1,4 +1,4 @@
-//! Suggested command for the import of a folder that is not yet a dataset.
+//! Suggests the command that begins the import of a folder that is not yet a dataset.
 
 use std::fs;
 use std::path::Path;

@@ -46,9 +46,9 @@ pub struct CsvTable {
     text: String,
     blocks: Vec<Block>,
     rows: usize,
-    /// Line of each row if quoted cells may contain line ends; `None` if lines are counted in the text.
+    /// Line number of each row, if quoted cells may contain line ends; `None` if every row is one line of the text.
     lines: Option<Vec<u64>>,
-    /// Cache of the lines counted in the text, filled on the first request.
+    /// Cache of the line number of each row, filled on the first request.
     counted: OnceLock<Vec<u64>>,
     /// Number of lines in the text that are not in the file: the generated header of a headerless file.
     added_lines: u64,
@@ -208,7 +208,7 @@ impl CsvTable {
         line - self.added_lines + self.left_out_lines
     }
 
-    /// Counts the line of every row in one pass over the text.
+    /// Computes the line number of every row in one pass over the text.
     fn count_lines(&self) -> Vec<u64> {
         let (mut line, mut counted) = (1, 0);
         let rows = 0..self.rows;

@@ -211,7 +211,7 @@ fn are_beside(
         && table.rows != pictures.paths.len()
 }
 
-/// Number of channels; 0 for a text of numbers without names, because it may be the matrix of a camera.
+/// Number of channels in `table`; 0 for a text of numbers without names, which may be the matrix of a camera.
 fn stated_channels(table: &SeenTable<'_>) -> usize {
     match table.has_guessed_channels && table.group.ending == "txt" {
         true => 0,

@@ -167,7 +167,7 @@ impl ImportError {
     }
 }
 
-/// Message of `error` after the place where its path or image is named. A file in both is written once.
+/// Message of `error`, preceded by `place`, where its path or image is named. An image path that equals the path of `place` is written once.
 fn named(place: &Place, error: &DatasetError) -> String {
     match error {
         DatasetError::Image { path, problem } if *path == place.path => {

@@ -167,7 +167,7 @@ impl ForeignTable {
         }
     }
 
-    /// Attributes that the file states for a column, one entry for each different set among the groups.
+    /// Attributes that the file states for a column. Groups of the file with different attributes give one entry each.
     pub(crate) fn stated(&self, name: &str) -> Vec<Stated> {
         match self {
             ForeignTable::Columns(table) => table.stated(name),
@@ -176,8 +176,8 @@ impl ForeignTable {
         }
     }
 
-    /// Names that may contain the unit of `name`, a number in the column `base`: first the name of the element, then the column name. The name
-    /// of the file replaces the column name `value`.
+    /// Names that may state the unit of `name`, which is the column `base` or a number in its cells. The name of the number precedes the column name,
+    /// and the file name replaces the column name `value`.
     pub(crate) fn names_with_units(&self, name: &str, base: &str) -> Vec<String> {
         let at = name.strip_prefix(base).unwrap_or_default();
         let at: Option<usize> = at.trim_matches(['[', ']']).parse().ok();
@@ -193,7 +193,7 @@ impl ForeignTable {
         names
     }
 
-    /// Example of a cell whose decimal point may be a digit separator, with the number of these cells in the column.
+    /// Example of a cell whose decimal point may be a digit separator, and the number of such cells in the column.
     pub(crate) fn grouped_digits(&self, name: &str) -> Option<(String, u64)> {
         match self {
             ForeignTable::Delimited(table) => table.grouped_digits(name),
@@ -240,7 +240,7 @@ impl ForeignTable {
         }
     }
 
-    /// Clip and frame number of each row for the feature `key`. Clip paths are relative to the folder of the table.
+    /// Clip and frame number of each row for the LeRobot feature `key`. Clip paths are relative to the folder of the table.
     pub(crate) fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, ImportError> {
         match self {
             ForeignTable::Columns(table) => table.clips(key),
@@ -248,7 +248,7 @@ impl ForeignTable {
         }
     }
 
-    /// Distance for each code of the feature `key`; `None` if the feature is not a depth map.
+    /// Distance for each code of the LeRobot feature `key`; `None` if the feature is not a depth map.
     pub(crate) fn depth(&self, key: &str) -> Option<DepthCodes> {
         match self {
             ForeignTable::Columns(table) => table.depth(key),
@@ -264,7 +264,7 @@ impl ForeignTable {
         }
     }
 
-    /// Counts unwritten chunks of the arrays behind these columns, by file and array.
+    /// Adds the number of unwritten chunks of each array of the columns `names` to `into`, by file and array.
     pub(crate) fn count_absent_chunks(
         &self,
         folder: &SourceFolder,
@@ -288,7 +288,7 @@ impl ForeignTable {
         }
     }
 
-    /// Class lists stated by the file, for columns whose numbers index them.
+    /// Columns whose numbers denote classes, each with the list of class names that the file states.
     pub(crate) fn classes(&self) -> Vec<(String, Vec<String>)> {
         match self {
             ForeignTable::Columns(table) => table.classes(),
@@ -351,7 +351,7 @@ impl ForeignTable {
         table_error!(self.path(), "no column `{}`{guess}? {known}", shown(name))
     }
 }
-/// Adds the column `name` to `place`, unless it is empty.
+/// Adds the column `name` to `place`, unless `name` is empty.
 fn named(place: Place, name: &str) -> Place {
     match name {
         "" => place,

@@ -1,11 +1,11 @@
-//! Locations of the frames of an import.
+//! Finds the frames of an import: files, arrays or clips.
 
 use taceva_dataset::ChannelOrder;
 
-/// Attribute that names the frame without contact of a row, if the frames differ between rows.
+/// Attribute with the name of the frame without contact of each row, if this frame differs between rows.
 const REFERENCE_ATTRIBUTE: &str = "reference";
 
-/// Attribute that names the frame without contact of `view` in a row, if the frames differ between rows.
+/// Attribute with the name of the frame without contact of `view` for each row, if this frame differs between rows.
 pub(crate) fn reference_attribute(view: Option<&str>) -> String {
     match view {
         None => REFERENCE_ATTRIBUTE.to_owned(),
@@ -46,7 +46,7 @@ pub struct FrameMap {
 }
 
 impl FrameMap {
-    /// Frames in files relative to the folder of the table, in `channel_order`, with an unknown frame without contact.
+    /// Frames in `channel_order`, in files relative to the folder of the table. The frame without contact is unknown.
     pub fn new(names: FrameNames, channel_order: ChannelOrder) -> FrameMap {
         FrameMap {
             view: None,

@@ -1,4 +1,4 @@
-//! Layouts with a name: required files, data read, and facts left open.
+//! Named layouts of folders: required files, data read, and facts left open.
 
 use std::path::Path;
 use std::sync::OnceLock;
@@ -50,13 +50,13 @@ const SECTION: &str = "[preset]\n";
 #[derive(Debug, Deserialize, PartialEq, Eq)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Need {
-    /// Alternative paths relative to the folder, with `*` for any characters within a name. The map names the first path. The path that exists is
-    /// read.
+    /// Alternative paths relative to the folder, with `*` for any characters within a name. The map names the first path; an import reads the path
+    /// that exists.
     pub(crate) any_of: Vec<String>,
     pub(crate) what: String,
 }
 
-/// Replacements in the map if no file matches `absent`.
+/// Replacements in the map for folders in which no file matches `absent`.
 #[derive(Debug, Deserialize, PartialEq, Eq)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Instead {
@@ -147,7 +147,7 @@ impl Preset {
         self.0
     }
 
-    /// Name on the command line.
+    /// Name of the preset on the command line.
     pub fn name(self) -> &'static str {
         self.0.name
     }

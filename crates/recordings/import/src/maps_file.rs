@@ -7,10 +7,10 @@ use crate::error::{ImportError, table_error};
 use crate::foreign::OneArray;
 use taceva_dataset::internal::{limits, shown};
 
-/// Number of numbers that are read at once: 8 MiB.
+/// Maximum number of values in one read: 8 MiB as `f64`.
 const READ_NUMBERS: u64 = 1 << 20;
 
-/// Array of depth maps in a file of another program, such as a `.npy`: rows × rows of pixels × columns of pixels.
+/// Array of depth maps in a file of another program, such as a `.npy`. Its axes are the map, the pixel row and the pixel column.
 ///
 /// ```
 /// use taceva_import::MapsFile;
@@ -76,12 +76,12 @@ impl MapsFile {
         self.rows
     }
 
-    /// Number of rows and of columns of pixels.
+    /// Number of pixel rows and of pixel columns of each map.
     pub fn size(&self) -> [usize; 2] {
         self.size
     }
 
-    /// Numbers of the map at `position`, counted from 0, row by row.
+    /// Pixel values of the depth map at `position`, from 0, row by row.
     ///
     /// # Errors
     /// [`ImportError`] if the file cannot be read, has no numbers, or has no such map.
@@ -91,7 +91,7 @@ impl MapsFile {
         map.ok_or_else(|| table_error!(self.array.path(), "no depth map {position}"))
     }
 
-    /// Maps at the positions `range`.
+    /// Depth maps at the positions `range`, each with its values row by row.
     pub(crate) fn maps(&self, range: Range<u64>) -> Result<Vec<Vec<f64>>, ImportError> {
         let [rows, columns] = self.size;
         if range.end > self.rows {
@@ -113,7 +113,7 @@ impl MapsFile {
         self.array.path()
     }
 
-    /// Number of maps that are read at once.
+    /// Number of maps in one read.
     pub(crate) fn step(&self) -> u64 {
         let [rows, columns] = self.size;
         (READ_NUMBERS / (rows as u64 * columns as u64).max(1)).max(1)

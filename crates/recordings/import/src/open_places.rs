@@ -1,4 +1,4 @@
-//! Gaps of a drafted map.
+//! Finds the gaps (`"?"`) of a drafted map.
 
 /// Mark for a value that a draft leaves to the lab.
 pub const OPEN: &str = "\"?\"";
@@ -14,7 +14,7 @@ pub fn code(line: &str) -> &str {
     end.map_or(line, |(at, _)| &line[..at])
 }
 
-/// Number of gaps in `map`, not counting comments.
+/// Number of gaps (`"?"`) in `map`, not counting comments.
 pub fn open_places(map: &str) -> usize {
     map.lines()
         .map(|line| code(line).matches(OPEN).count())

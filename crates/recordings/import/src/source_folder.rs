@@ -44,7 +44,7 @@ impl SourceFolder {
         }
     }
 
-    /// Path of the file `relative` to `base`, a folder inside the source folder.
+    /// Path of the file that `relative` names below `base`, a folder inside the source folder.
     pub(crate) fn file(&self, base: &Path, relative: &str) -> Result<PathBuf, ImportError> {
         let refused = |problem: &str| ImportError::path(relative, problem);
         if relative.is_empty() {

@@ -230,7 +230,7 @@ impl SourceSums {
     }
 }
 
-/// List of the files read in `folder`. Files whose path is not valid UTF-8 are left out.
+/// List of the files read in `folder`, each with its digest. Files whose path is not valid UTF-8 are left out.
 pub(crate) fn list_of(
     folder: &SourceFolder,
     jobs: NonZeroUsize,

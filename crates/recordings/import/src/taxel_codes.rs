@@ -13,7 +13,7 @@ pub(crate) struct TaxelCode {
 const GREATEST: [f64; 7] = [
     255.0, 1_023.0, 4_095.0, 32_767.0, 65_535.0, 99_999.0, 9_999.0,
 ];
-/// Minimum number of rows with the same code. At least one in `SHARE` rows must have this code.
+/// Minimum number of rows with the same code. The code must also be in at least one of `SHARE` rows.
 const LEAST: usize = 3;
 const SHARE: usize = 50;
 /// Minimum distance of a negative code from the nearest other number. Noise has smaller distances.

@@ -88,7 +88,7 @@ fn a_small_picture_that_becomes_very_many_pixels_is_refused_and_a_flat_one_of_a_
     assert_eq!(frame.info().width, 3_840);
 }
 
-/// Black picture of this size.
+/// PNG of a black picture of `width` × `height` pixels.
 fn flat(width: u32, height: u32) -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());
     let picture = image::GrayImage::new(width, height);

@@ -155,7 +155,7 @@ fn a_bag_whose_frames_change_and_one_that_is_cut_are_refused_with_the_remedy() {
     assert!(open.contains("`cut = \"?\"`, expected \"keep\""), "{open}");
 }
 
-/// Plan of an import of the forces in `none.bag`, with these keys of its table.
+/// Plan of an import of the forces in `none.bag`. `keys` are further keys of `table` in the map.
 fn of_ft(folder: &Path, keys: &str) -> Result<ImportPlan, ImportError> {
     let map = format!(
         "map_version = 2\ntable = {{ file = \"none.bag\", {keys} }}\n[columns]\nFz = {{ from = \"wrench.force.z\", unit = \"N\" }}\n\

@@ -7,7 +7,7 @@ use crate::support::{Random, contents};
 use taceva_dataset::Dataset;
 use taceva_import::{CsvTable, ImportMap};
 
-/// Digest and all frames of the dataset at `set`; `None` if anything is rejected.
+/// Digest and all frames of the dataset `set` of `lab`; `None` if its reader rejects any part.
 fn whole(lab: &Lab) -> Option<Vec<Vec<u8>>> {
     let dataset = Dataset::open(&lab.path("set")).ok()?;
     let mut all = vec![dataset.digest().as_bytes().to_vec()];

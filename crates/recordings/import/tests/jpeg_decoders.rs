@@ -31,7 +31,7 @@ fn ours(path: &Path, order: &str) -> Vec<u8> {
     frame.bytes().to_vec()
 }
 
-/// Pixels of the same picture from the program of libjpeg; `None` if it is not installed.
+/// Pixels of the picture at `path` from `djpeg` of libjpeg; `None` if `djpeg` is not installed.
 fn libjpegs(path: &Path) -> Option<Vec<u8>> {
     let output = Command::new("djpeg")
         .args(["-dct", "int", "-pnm"])
@@ -44,7 +44,7 @@ fn libjpegs(path: &Path) -> Option<Vec<u8>> {
     Some(bytes[header + 1..].to_vec())
 }
 
-/// Maximum and mean difference, levels.
+/// Maximum and mean absolute difference over all pixel values, levels.
 fn difference(ours: &[u8], theirs: &[u8]) -> (u8, f64) {
     assert_eq!(ours.len(), theirs.len());
     let each = ours.iter().zip(theirs).map(|(a, b)| a.abs_diff(*b));

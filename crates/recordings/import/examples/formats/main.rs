@@ -5,8 +5,8 @@
 //! ```
 //!
 //! With DATASETS, each dataset is kept in that folder with its map, so that `tests/formats/compare.py` can read the files again with their packages.
-//! `packages.json` names the package that wrote each file or folder of FOLDER. Each is imported by its map beside this file. Without a map, a fresh draft is
-//! used, with the units N, Nm and mm filled in. Clips need ffmpeg on the PATH.
+//! `packages.json` names the package that wrote each file or folder of FOLDER. The map beside this file imports it. Without a map, a fresh draft
+//! imports it, with the units N, Nm and mm filled in. Clips need ffmpeg on the PATH.
 
 #![expect(clippy::print_stdout, reason = "a program says what it found")]
 
@@ -26,7 +26,7 @@ struct Written {
     path: String,
     package: String,
     version: String,
-    /// Map beside this example; `None` for a fresh draft.
+    /// File name of a map beside this example; `None` for a fresh draft.
     #[serde(default)]
     map: Option<String>,
 }
@@ -136,7 +136,7 @@ fn imported(lab: &Path, map: Option<String>, target: &Path) -> Result<String, Bo
     Ok(format!("{}, {by}{open}", parts.join(", ")))
 }
 
-/// Channels whose column is open in the draft.
+/// Channels whose column the draft leaves open (`"?"`).
 fn left_open(draft: &str) -> Vec<String> {
     let open = draft
         .lines()
@@ -145,7 +145,7 @@ fn left_open(draft: &str) -> Vec<String> {
         .collect()
 }
 
-/// Draft with units and sensor model filled in, without the channels whose column is open.
+/// Draft with units and sensor model filled in, without the channels of [`left_open`].
 fn filled(draft: &str) -> String {
     let line = |line: &str| {
         let unit = match line.as_bytes().first() {

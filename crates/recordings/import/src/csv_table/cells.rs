@@ -1,4 +1,4 @@
-//! Cell bounds of plain text: each line is a row, and no cell is quoted.
+//! Finds cell bounds in text without quoted cells: each line is a row.
 
 use std::ops::Range;
 
@@ -95,7 +95,7 @@ impl RowSplitter {
         Ok(None)
     }
 
-    /// Ends an unterminated last line before `end`, if any.
+    /// Ends the last row of the text at `end`, if no line end precedes `end`.
     pub(super) fn finish(&mut self, text: &[u8], end: usize) -> Result<(), Ragged> {
         if self.line < end {
             self.end(text, end)
@@ -110,7 +110,7 @@ impl RowSplitter {
         self.rows
     }
 
-    /// Number of line ends passed.
+    /// Number of line ends found, including blank lines.
     pub(super) fn lines(&self) -> u64 {
         self.lines
     }
@@ -125,7 +125,7 @@ impl RowSplitter {
         self.bounds.push(bound(line));
     }
 
-    /// Handles a delimiter or a line end. Returns true at the end of the last requested row.
+    /// Handles the delimiter or line end at byte `at`. Returns true at the end of the last requested row.
     fn separator(&mut self, text: &[u8], at: usize, is_end: bool) -> Result<bool, Ragged> {
         if !is_end {
             self.bounds.push(bound(at + 1));

@@ -1,4 +1,4 @@
-//! Parsed columns of a table, for all or some rows.
+//! Parses columns of a table, for all rows or for some.
 
 use std::ops::Range;
 
@@ -35,7 +35,7 @@ impl CsvTable {
         self.whole(name, Invalid::AsNan)
     }
 
-    /// Numbers of the column at `column` in `rows`, in that order; empty cells are missing values.
+    /// Numbers of the column at the position `column`, for `rows` and in their order; empty cells are missing values.
     ///
     /// # Errors
     /// [`ImportError::Table`] at the first cell that is not a finite number.
@@ -97,7 +97,7 @@ impl CsvTable {
         Ok(self.text_in(column, 0..self.rows).collect())
     }
 
-    /// Cells of the column at `column` in `rows`, in the order of `rows`, as written, without surrounding blanks.
+    /// Cells of the column at the position `column`, for `rows` and in their order, as written, without surrounding blanks.
     ///
     /// # Panics
     /// Panics if the row or column does not exist.
@@ -144,7 +144,7 @@ impl CsvTable {
         Ok(with_absent(values, &absent))
     }
 
-    /// Parses the numbers into `values`. Returns the positions of missing values.
+    /// Parses the numbers of `column` in `rows` into `values`. Returns the positions in `values` of missing numbers.
     fn parse(
         &self,
         column: usize,
@@ -164,7 +164,7 @@ impl CsvTable {
         Ok(absent)
     }
 
-    /// Text range of each cell of `rows`. The block is looked up again only for a row outside the previous block.
+    /// Text range of the cell of `column` in each of `rows`, with its row.
     fn cells(
         &self,
         column: usize,

@@ -76,9 +76,9 @@ fn parse_plain(cell: &[u8]) -> Option<f64> {
     Some(if negative { -magnitude } else { magnitude })
 }
 
-/// Parses up to eight bytes and a sign like [`parse_plain`], but all bytes together, to avoid unpredictable branches.
+/// Parses a sign and up to eight bytes like [`parse_plain`], but all bytes in one step, to avoid unpredictable branches.
 ///
-/// The eight-byte window ends at the end of the cell, so that the last digit is in the highest byte.
+/// The eight bytes that are read end at the end of the cell, so that the last digit is in the highest byte.
 fn parse_short(text: &[u8], cell: Range<usize>) -> Option<f64> {
     let negative = *text.get(cell.start)? == b'-';
     let length = cell.len().checked_sub(usize::from(negative))?;
@@ -182,7 +182,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Parses `cell`, with a result that does not depend on the position of the cell in the text.
+    /// Parses `cell`, and checks that the result does not depend on the position of the cell in the text.
     fn read(cell: &str) -> Option<Option<f64>> {
         let found = parse_number(cell, 0..cell.len());
         for before in ["7", "12.5,-8,9.", "1.5\n-1234567.25,", "µ,µ,µ,µ,µ,µ,-"] {

@@ -22,7 +22,7 @@ const AHEAD: usize = 1 << 18;
 
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// CSV file of any length, read in parts: the offsets of its rows and the digest of its text.
+/// CSV file of any length, read in parts. Stores the offset of each part and the digest of the text.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;
@@ -107,7 +107,7 @@ impl CsvParts {
         begin.min(self.rows)..(begin + PART_ROWS).min(self.rows)
     }
 
-    /// Table of the same columns without rows.
+    /// Table with the columns of the file and without rows.
     ///
     /// # Errors
     /// Errors of [`CsvTable::read`].
@@ -278,7 +278,7 @@ pub(super) fn begin_of(file: &mut File) -> std::io::Result<u64> {
 mod tests {
     use super::*;
 
-    /// Table that is longer than one part, with blank lines, and with some quoted cells if `is_quoted`.
+    /// Text of a table that is longer than one part, with blank lines, and with some quoted cells if `is_quoted`.
     fn text(is_quoted: bool) -> String {
         let mut text = "id,Fz,note\n".to_owned();
         for row in 0..PART_ROWS + 77 {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::parts::PART_ROWS;
 
-/// Start of a part.
+/// Start of a part of a CSV file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Mark {
@@ -16,7 +16,7 @@ pub(super) struct Mark {
     pub(super) line: u64,
 }
 
-/// Result of a scan.
+/// Result of a scan of a CSV file.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Found {
     /// End of the header, bytes.
@@ -117,7 +117,7 @@ impl<R: Read> Read for LineScan<R> {
     }
 }
 
-/// Reader that returns the cells of a quoted table as `quotation.rs` stores them, each with a line end, and finds rows.
+/// Reader of a quoted table. Returns its cells as `quotation.rs` stores them, each with a line end, and finds the start of each part.
 pub(super) struct QuotedScan<R> {
     reader: csv::Reader<R>,
     record: csv::ByteRecord,

@@ -1,4 +1,4 @@
-//! Splits tables without quotes in parallel, in parts that end at line ends.
+//! Splits the text of tables without quotes into cells, in parallel parts of whole lines.
 
 use std::num::NonZeroUsize;
 use std::ops::Range;
@@ -9,7 +9,7 @@ use super::{CsvTable, line_at};
 use crate::error::{ImportError, Place};
 use taceva_dataset::internal::each_part;
 
-/// Minimum length of text for a second thread, bytes.
+/// Minimum length of the text of a thread, bytes.
 const LEAST_PART: usize = 1 << 16;
 
 /// Range of rows with the bounds of each cell in the text.

@@ -13,7 +13,7 @@ use crate::error::ImportError;
 use taceva_dataset::internal::{PartsDigest, open_regular};
 use taceva_dataset::{Digest, Place};
 
-/// Read size, bytes.
+/// Number of bytes per read.
 const AHEAD: usize = 1 << 16;
 
 /// Maximum size of a block of rows, bytes. A larger block is an error.
@@ -41,7 +41,7 @@ const BEGINNING: usize = 4_096;
 /// ```
 #[derive(Debug)]
 pub struct CsvStream {
-    /// Table of the columns without rows.
+    /// Table with the columns of the file and without rows.
     header: CsvTable,
     delimiter: u8,
     file: File,
@@ -84,12 +84,12 @@ impl CsvStream {
         })
     }
 
-    /// Table of the columns without rows.
+    /// Table with the columns of the file and without rows.
     pub fn header(&self) -> &CsvTable {
         &self.header
     }
 
-    /// Table without rows, into which blocks are read.
+    /// Empty table, which [`read`](CsvStream::read) fills with the rows of a block.
     pub fn block(&self) -> CsvTable {
         CsvTable {
             path: self.header.path.clone(),
@@ -151,7 +151,7 @@ impl CsvStream {
         Ok(())
     }
 
-    /// Digest of the whole file, equal to [`CsvTable::digest`]. Valid once everything was read.
+    /// Digest of the whole file, equal to [`CsvTable::digest`]. Valid after the last block is read.
     pub fn digest(&self) -> Digest {
         self.digest.clone().finish()
     }

@@ -37,7 +37,7 @@ impl CsvTable {
     }
 }
 
-/// Keys of the map section `table` that would read a text with another form.
+/// Suggested keys of the map section `table`, if the form guessed from `text` needs keys.
 fn hint(text: &str, form: &TextForm) -> Option<String> {
     let guessed = TextForm::guessed(text);
     let keys = TextForm {

@@ -20,7 +20,7 @@ pub(crate) struct TextForm {
     pub(crate) has_units: bool,
 }
 
-/// Number of lines of a text table from which its form is guessed.
+/// Maximum number of lines of a text table from which its form is guessed.
 const LOOKED_AT: usize = 64;
 
 impl TextForm {
@@ -227,7 +227,7 @@ impl TextForm {
     }
 }
 
-/// True for a cell of digits that contains one `sign`.
+/// True for a cell of digits that contains one decimal mark `sign`.
 fn is_decimal(cell: &str, sign: char) -> bool {
     let bare = cell.trim_start_matches(['+', '-']);
     bare.split_once(sign).is_some_and(|(whole, fraction)| {

@@ -1,4 +1,4 @@
-//! Lines of `[columns]` of a map: the best candidate for each channel, with the others in a comment.
+//! Lines of `[columns]` of a map: the best candidate column for each channel, with the other candidates in a comment.
 
 use std::fmt::Write;
 
@@ -21,7 +21,7 @@ impl Offered<'_> {
         self.candidate.unit.map_or("?", |(unit, _)| unit)
     }
 
-    /// Keys of the unit and of the scale.
+    /// Map keys that state the unit and scale of the column.
     fn facts(&self) -> String {
         let scale = self.candidate.unit.and_then(|(_, source)| source.scale());
         let scale = scale.map(|scale| format!(", scale = {scale}"));
@@ -40,7 +40,7 @@ impl Offered<'_> {
         )
     }
 
-    /// Rank within a pose that is a list of lists: the position precedes the rotation.
+    /// Rank of a column whose cells are a pose as a list of lists: the position precedes the rotation.
     fn place_in_pose(&self) -> u32 {
         let is_place = self.candidate.channel.starts_with('P');
         let last = self.name.rsplit('/').next().filter(|_| is_place);
@@ -61,7 +61,7 @@ impl Offered<'_> {
     }
 }
 
-/// Lines of all channels, in column order. A line has a gap if two candidates share the best rank.
+/// Lines of all channels, in column order. A line has a gap (`"?"`) if two candidates share the best rank.
 pub(super) fn lines(offered: &[Offered<'_>]) -> String {
     let mut text = String::new();
     for channel in taceva_core::distinct(offered.iter().map(|one| one.candidate.channel)) {

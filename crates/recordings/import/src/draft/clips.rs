@@ -1,4 +1,4 @@
-//! Clips beside the rows of a table.
+//! Finds the video clips that belong to the rows of a table.
 
 use std::path::Path;
 
@@ -21,7 +21,7 @@ pub(super) struct OnlyClip {
 }
 
 impl OnlyClip {
-    /// Evidence that each row of `table` is a frame, from 0 to 2. 1: the clip has as many frames as the table has rows. 2: the file names also agree.
+    /// Evidence, from 0 to 2, that each row of `table` is a frame: 1 if clip and table have equal counts, 2 if their file names also agree.
     pub(super) fn fit(&self, table: &SeenTable<'_>) -> u8 {
         let is_as_many = table.rows as u64 == self.frames && table.group.paths.len() == 1;
         let is_named = table.group.stem().starts_with(&self.stem);
@@ -58,7 +58,7 @@ pub(super) struct BareClip<'g> {
 /// Maximum number of clips that are opened to find a readable one.
 const OPENED: usize = 16;
 
-/// First clip among `groups` that can be opened and states the time of each frame; only the clip `asked`, if it is given.
+/// First clip that can be opened and states the time of each frame, among `groups`. If `asked` is given, only this clip is considered.
 pub(super) fn bare<'g>(
     folder: &SourceFolder,
     groups: &'g [FileGroup],
@@ -85,7 +85,7 @@ pub(super) fn bare<'g>(
     })
 }
 
-/// Frame lines for the clips beside `main`. A line has a gap if a clip has more or fewer frames than `main` has rows.
+/// Lines of `[frame]` for the clips beside `main`. A line has a gap (`"?"`) if a clip has more or fewer frames than `main` has rows.
 pub(super) fn of(
     folder: &SourceFolder,
     groups: &[FileGroup],
@@ -136,7 +136,7 @@ fn lines(clip: &str, index: String) -> FrameLines {
 /// Maximum ratio between the time spans of a clip and a table that may have been recorded together.
 const SPANS: f64 = 10.0;
 
-/// Map line with a gap, for a clip with more or fewer frames than `main` has rows. `None` if the counts agree or the clip cannot be opened.
+/// Map line with a gap (`"?"`), for a clip with more or fewer frames than `main` has rows. `None` if the counts agree or the clip cannot be opened.
 fn other_length(clip: &Path, main: &SeenTable<'_>) -> Option<String> {
     let video = Video::open(clip, &Decoders::default()).ok()?;
     let info = video.info();

@@ -1,4 +1,4 @@
-//! Kinds of files by their filename extensions.
+//! Recognises pictures and clips by their filename extensions.
 
 /// True for the filename extension of a picture, in lower case.
 pub(super) fn is_picture(ending: &str) -> bool {

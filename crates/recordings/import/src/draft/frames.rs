@@ -15,10 +15,10 @@ use picture_lines::{in_array, in_table};
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::{decode, limits, read_capped};
 
-/// Number of cells of a column that are checked for names of files.
+/// Maximum number of cells of a column that are checked for names of files.
 const LOOKED_UP: usize = 20;
 
-/// Comment on the pictures that belong to no row of `main`.
+/// Comment of the draft that lists the pictures that belong to no row of `main`.
 pub(super) fn none_found(groups: &[FileGroup], main: &SeenTable<'_>) -> String {
     series::none_found(groups, main)
 }
@@ -26,15 +26,15 @@ pub(super) fn none_found(groups: &[FileGroup], main: &SeenTable<'_>) -> String {
 /// Lines of `[frame]` with their comments.
 #[derive(Debug, Default)]
 pub(super) struct FrameLines {
-    /// View of the frames, if rows have several pictures.
+    /// Name of the view, if rows have several pictures.
     pub(super) view: Option<String>,
     pub(super) lines: Vec<String>,
     pub(super) is_gray: bool,
     /// Colour order, if the file states it.
     pub(super) order: Option<ChannelOrder>,
-    /// Lines of [path], if pictures are found by the end of a path.
+    /// Lines of `[path]`, if pictures are found by the end of a path.
     pub(super) path: Option<String>,
-    /// Lines of [drop].
+    /// Lines of `[drop]`.
     pub(super) drop: Option<String>,
 }
 
@@ -118,7 +118,7 @@ fn camera_folders<'t>(
     })
 }
 
-/// Rule that drops rows without a picture name. Recorders that allocate rows in advance leave empty rows at the end.
+/// Line of `[drop]` for rows without a picture name. Recorders that allocate rows in advance leave empty rows at the end.
 fn empty_rows(column: &SeenColumn, rows: usize) -> Option<String> {
     (column.empty > 0).then(|| {
         format!(
@@ -128,7 +128,7 @@ fn empty_rows(column: &SeenColumn, rows: usize) -> Option<String> {
     })
 }
 
-/// Frame lines for a table whose paths begin in a parent folder or on another machine.
+/// Lines of `[frame]` for a table whose picture paths begin in a parent folder or on another machine.
 fn by_end_of_path(folder: &SourceFolder, main: &SeenTable<'_>) -> Option<FrameLines> {
     let own = folder.path().join(main.group.first());
     let own = taceva_files::parent_of(&own).to_owned();
@@ -210,7 +210,7 @@ fn by_end_of_path(folder: &SourceFolder, main: &SeenTable<'_>) -> Option<FrameLi
     })
 }
 
-/// Frame lines for the pictures of `main`, one entry for each view. Clips are handled separately.
+/// Lines of `[frame]` for the pictures of `main`, one entry for each view. Clips are handled separately.
 pub(super) fn of(
     folder: &SourceFolder,
     groups: &[FileGroup],
@@ -269,12 +269,13 @@ pub(super) fn of(
     }
 }
 
-/// Frame lines of the columns, folders or files `names` that are views of one sample; `lines` writes the lines of each view.
+/// Lines of `[frame]` for each view; empty if `names` are not views of one sample. `lines` writes the lines of the column, folder or file at a
+/// position.
 pub(super) fn of_views(names: &[&str], lines: impl Fn(usize) -> FrameLines) -> Vec<FrameLines> {
     of_sides(sided(names), lines)
 }
 
-/// Frame lines of the views `sides`; `lines` writes the lines of each view.
+/// Lines of `[frame]` for each of the views `sides`; `lines` writes the lines of one view.
 fn of_sides(sides: Vec<Sided>, lines: impl Fn(usize) -> FrameLines) -> Vec<FrameLines> {
     let views = sides.into_iter().map(|Sided { at, view }| FrameLines {
         view: Some(view),
@@ -283,7 +284,7 @@ fn of_sides(sides: Vec<Sided>, lines: impl Fn(usize) -> FrameLines) -> Vec<Frame
     views.collect()
 }
 
-/// Frame lines for pictures named in a column.
+/// Lines of `[frame]` for pictures that a column names.
 fn in_column(folder: &SourceFolder, main: &SeenTable<'_>, found: FileColumn<'_>) -> FrameLines {
     let FileColumn {
         column,
@@ -313,7 +314,7 @@ pub(super) fn are_pairs(tables: &FileGroup, files: &FileGroup) -> bool {
         && files.parts.names == tables.parts.names
 }
 
-/// Index line whose value is left open, for pictures in one file that several tables share. By default each table would begin with the first picture.
+/// Line `index` with a gap (`"?"`), for pictures in one file that several tables share. By default each table would begin with the first picture.
 pub(super) fn counted_through(tables: &FileGroup) -> String {
     format!(
         "index = \"?\"   # {} tables share this file: name the column that numbers its pictures",
@@ -321,18 +322,18 @@ pub(super) fn counted_through(tables: &FileGroup) -> String {
     )
 }
 
-/// Pictures in files beside the table.
+/// Map entries for pictures in files beside the table.
 struct Beside {
-    /// File name as a map writes it for each table.
+    /// File name or pattern, as written in the map.
     file: String,
-    /// Comment above the line; `None` without a comment.
+    /// Comment above the line `array`; `None` without a comment.
     comment: Option<String>,
     /// Line that names the picture index of a row, if the index differs from the row number.
     index: Option<String>,
 }
 
 impl Beside {
-    /// Pictures in `files` for the rows of `tables`.
+    /// Entries for pictures in `files` that belong to the rows of `tables`.
     fn of(tables: &FileGroup, files: &FileGroup) -> Beside {
         let named = |file: &str, comment: Option<String>| Beside {
             file: file.to_owned(),

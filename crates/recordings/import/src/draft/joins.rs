@@ -16,16 +16,16 @@ pub(super) struct SeenJoin<'t, 'g> {
 }
 
 impl SeenJoin<'_, '_> {
-    /// True if cells of the joined table are interpolated, which excludes texts.
+    /// True if cells of the joined table are interpolated. Only numbers can be interpolated.
     pub(super) fn is_interpolated(&self) -> bool {
         self.lines.iter().any(|line| line.starts_with(LINEAR))
     }
 }
 
-/// Beginning of the line of an interpolating join.
+/// Beginning of the line `pick` of a join that interpolates.
 const LINEAR: &str = "pick = \"linear\"";
 
-/// Tables with channels that `main` lacks, each with its join.
+/// Joins with the tables that have channels which `main` lacks.
 pub(super) fn of<'t, 'g>(
     main: &SeenTable<'_>,
     tables: &'t [SeenTable<'g>],
@@ -70,7 +70,7 @@ pub(super) fn of<'t, 'g>(
     joins
 }
 
-/// Joined table with one row for each main table, such as a summary of a session.
+/// Join of a table that has one row for each file of the main table, such as a summary of a session: its path and its lines.
 fn beside(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<(String, Vec<String>)> {
     let are_pairs = main.group.paths.len() > 1
         && other.group.paths.len() == main.group.paths.len()
@@ -85,7 +85,7 @@ fn beside(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<(String, Vec<St
     })
 }
 
-/// Join by key: a column of both tables, unique in `other`, that shares some values with `main`.
+/// Lines of a join by a key: a column of both tables that is unique in `other` and shares a value with `main`.
 fn by_key(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     let key = main.columns.iter().find(|column| {
         let Some(there) = other.columns.iter().find(|there| there.name == column.name) else {
@@ -114,7 +114,7 @@ fn by_key(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     ])
 }
 
-/// Join by time: the times of both tables overlap.
+/// Lines of a join by time, if the times of both tables overlap.
 fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     let (own_time, time) = (main.time()?, other.time()?);
     let (own, own_unit) = (own_time.column, own_time.unit);
@@ -180,7 +180,7 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
 /// Minimum time step between rows that are single presses, ms. Rows of a stream are closer.
 const PRESSES_MS: f64 = 1_000.0;
 
-/// Fraction of the time step between rows within which a row of the same press is expected.
+/// Maximum time difference between rows of the same press in two tables, as a fraction of the time step between presses.
 const SHARE_OF_STEP: f64 = 0.1;
 
 /// First and last time of a table, s; `None` if the times are not numbers.
@@ -195,7 +195,7 @@ fn in_seconds(cell: &str, unit: &str) -> f64 {
     cell.parse::<f64>().unwrap_or(f64::NAN) / second_in(unit)
 }
 
-/// Number of `unit` per second.
+/// Number of units per second: 1000 for `ms`.
 fn second_in(unit: &str) -> f64 {
     match unit {
         "ns" => 1e9,
@@ -205,7 +205,7 @@ fn second_in(unit: &str) -> f64 {
     }
 }
 
-/// Rate of rows at these times, Hz; `None` if all times are equal or the unit is unknown.
+/// Median rate of rows with the times `cells`, Hz; `None` if all times are equal or the unit is unknown.
 fn rate_hz(cells: &[String], unit: &str) -> Option<f64> {
     if unit == "?" {
         return None;
@@ -214,10 +214,11 @@ fn rate_hz(cells: &[String], unit: &str) -> Option<f64> {
     Some(second_in(unit) / median_step(&times)?)
 }
 
-/// Minimum rate of a joined table, relative to the main table, at which each main row has a near row.
+/// Minimum rate of a joined table, as a fraction of the rate of the main table. Below it, main rows share a joined row.
 const NEAR_RATE: f64 = 0.9;
 
-/// True if the rate `other` of the joined table is so low that several main rows share a row. Rates in Hz.
+/// True if the joined table, with the rate `other`, is so much slower than the main table, with the rate `own`, that main rows share a row. Rates in
+/// Hz.
 fn is_slower(own: f64, other: f64) -> bool {
     other < NEAR_RATE * own
 }
@@ -227,7 +228,7 @@ fn is_of_presses(rate: f64) -> bool {
     1e3 / rate > PRESSES_MS
 }
 
-/// Line `pick` for these rates of the main and the joined table, Hz.
+/// Line `pick` for the rate `own` of the main table and the rate `other` of the joined table, Hz.
 fn pick_by_rates(own: f64, other: f64) -> String {
     let both = format!("{} against {} of the main table", in_hz(other), in_hz(own));
     match is_slower(own, other) {
@@ -250,7 +251,7 @@ fn in_hz(rate: f64) -> String {
     format!("{} Hz", (rate * scale).round() / scale)
 }
 
-/// Join row by row, for tables with the same number of rows and no other relation.
+/// Line of a row-by-row join, for tables with the same number of rows and no other relation.
 fn by_row(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     // With several tables, each would begin with the first row of the other.
     let is_alike = main.rows == other.rows && main.channels() == 0 && main.group.paths.len() == 1;

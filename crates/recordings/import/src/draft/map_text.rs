@@ -24,7 +24,7 @@ use sections::{HEAD, Lines, add_frames, add_path, add_section, begun, ended, lin
 use signals::signals;
 use taceva_core::counted;
 
-/// Maximum number of unread items that a draft names.
+/// Maximum number of unread items of a file that a draft names.
 const UNREAD: usize = 8;
 
 /// Maximum number of columns that a comment names.
@@ -266,7 +266,7 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
     ended(text)
 }
 
-/// Joins that an active line of the map uses, and the tables of the unused joins as a map writes them.
+/// Splits the joins `found`: first the joins that an uncommented line of the map uses, then the values of `table` of the other joins.
 fn used_joins<'t, 'g>(
     main: &SeenTable<'_>,
     found: Vec<SeenJoin<'t, 'g>>,
@@ -315,7 +315,7 @@ fn offered<'t>(
     of_columns.chain(of_path).collect()
 }
 
-/// Lines of `[attributes]` for columns of texts.
+/// Lines of `[attributes]` for columns that contain texts.
 fn attribute_lines(main: &SeenTable<'_>, columns: &[NamedColumn<'_>]) -> Lines {
     let mut attributes = Lines::default();
     for column in columns {

@@ -5,7 +5,7 @@ use super::tables::SeenTable;
 use crate::import::converter;
 use taceva_dataset::internal::first_names;
 
-/// Note on a file of an unreadable form, with a command that converts it.
+/// Note on files of an unreadable form, with a command that converts them; `None` if the form has no converter.
 pub(super) fn refused_form(group: &FileGroup) -> Option<String> {
     let remedy = converter(group.first())?;
     Some(format!("{} is not read: {remedy}", group.first()))
@@ -14,7 +14,7 @@ pub(super) fn refused_form(group: &FileGroup) -> Option<String> {
 /// Maximum number of files that a note names.
 const NAMED: usize = 8;
 
-/// Note on files of other kinds; `None` without such files. Import maps are not mentioned.
+/// Note that lists the unread files; `None` without such files. Import maps are not mentioned.
 pub(super) fn unread(groups: &[&FileGroup]) -> Option<String> {
     let others = groups.iter().filter(|group| group.ending != "toml");
     let names: Vec<&str> = others.map(|group| group.pattern()).collect();
@@ -38,7 +38,7 @@ pub(super) fn known_layout(preset: &str) -> String {
     )
 }
 
-/// Comment on an array that is beside pictures but has no rows for them.
+/// Note on an array beside pictures whose number of rows differs from the number of pictures.
 pub(super) fn array_beside_pictures(table: &SeenTable<'_>) -> String {
     let reason = match table.group.ending.as_str() {
         "txt" => {

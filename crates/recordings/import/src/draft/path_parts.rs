@@ -2,14 +2,14 @@
 
 use std::collections::BTreeSet;
 
-/// Paths that differ only in some parts.
+/// Varying parts of paths that are otherwise equal.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct PathParts {
     /// Paths with `*` for the varying parts.
     pub(super) glob: String,
     /// Paths with `{name}`, `{name:digits}` or `{name:number}` for the varying parts.
     pub(super) pattern: String,
-    /// Name of each part, in order; true for a number.
+    /// Name of each part, in order, with true for a number.
     pub(super) names: Vec<(String, bool)>,
     /// Values of each part that is a word.
     pub(super) words: Vec<(String, Vec<String>)>,
@@ -88,7 +88,7 @@ impl PathParts {
         plain.replace(":number}", "}").replace('{', "{path.")
     }
 
-    /// Letters directly after the part called `name`, usually its unit.
+    /// Letters directly after the part called `name`, usually the unit of the part.
     pub(super) fn letters_behind(&self, name: &str) -> Option<&str> {
         let (_, behind) = self.pattern.split_once(&format!("{{{name}:"))?;
         let (_, behind) = behind.split_once('}')?;

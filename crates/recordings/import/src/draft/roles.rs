@@ -40,8 +40,7 @@ pub(super) enum Role {
     Other,
 }
 
-/// Minimum number of rows that count up by one in a column that is taken for a counter. `COUNTED_BY_NAME` is the minimum for a column with the name
-/// of a channel.
+/// Minimum number of rows that count up by one in a column that is taken for a counter. For a column with the name of a channel: `COUNTED_BY_NAME`.
 const COUNTED: usize = 4;
 const COUNTED_BY_NAME: usize = 16;
 
@@ -167,7 +166,7 @@ fn of_texts(cells: &[&str]) -> Role {
     }
 }
 
-/// Role of a column with `width` numbers in each cell.
+/// Role of a column called `named` with `width` numbers in each cell.
 fn several(named: &Named, width: usize) -> Role {
     let words = named.quantity_of_several();
     let has = |known: &[&str]| words.iter().any(|word| known.contains(word));
@@ -194,7 +193,7 @@ fn several(named: &Named, width: usize) -> Role {
     }
 }
 
-/// Number of numbers in each cell, at least 2; `None` for cells of different lengths, or without lists of numbers.
+/// Number of numbers in every cell, at least 2; `None` if this number varies or the cells contain no lists of numbers.
 fn width(cells: &[&str]) -> Option<usize> {
     let count = |cell: &str| {
         let is_number = |at: usize| {

@@ -10,7 +10,7 @@ use crate::source_folder::SourceFolder;
 
 /// Maximum number of files and folders examined.
 const LOOKED_AT: usize = 100_000;
-/// Maximum number of names compared in a group.
+/// Maximum number of names in a group that are compared to find the varying parts.
 const COMPARED: usize = 2_000;
 
 /// Files whose names have a common pattern.

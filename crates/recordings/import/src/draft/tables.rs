@@ -21,7 +21,7 @@ use taxels::{open_numbered_times, taxels_of};
 /// Maximum number of rows examined in a table.
 const SAMPLED: usize = 200;
 
-/// Examined table, as an example of several similar tables if there are any.
+/// Examined table, which represents all similar tables of its group.
 #[derive(Debug)]
 pub(super) struct SeenTable<'g> {
     pub(super) group: &'g FileGroup,
@@ -37,7 +37,7 @@ pub(super) struct SeenTable<'g> {
     pub(super) pictures: Vec<PictureColumn>,
     /// Lists of classes stated by the file.
     pub(super) classes: Vec<(String, Vec<String>)>,
-    /// Further tables with pictures in the same file, as a map writes them.
+    /// Further tables with pictures in the same file, as written in a map.
     pub(super) others: Vec<String>,
     /// Unread items of the file, each with the reason.
     pub(super) unread: Vec<String>,
@@ -67,7 +67,7 @@ pub(super) struct SeenTime<'t> {
 }
 
 impl SeenTime<'_> {
-    /// Comment on the unit of the time.
+    /// Comment with the reason why the unit of the time may be different; empty for a certain unit.
     pub(super) fn mark(&self) -> String {
         let guess = self.guess.map(|guess| format!("   # {guess}"));
         guess.unwrap_or_default()
@@ -97,7 +97,7 @@ impl<'g> SeenTable<'g> {
             .then(|| SeenTable::of_form(folder.path(), group, ".", TableForm::LeRobot, extra))
     }
 
-    /// Readable topics of a recording, topics with pictures first. The error states why no topic is readable.
+    /// Tables of the readable topics of a recording, topics with pictures first. The error states why no topic is readable.
     pub(super) fn of_messages(
         folder: &SourceFolder,
         group: &'g FileGroup,
@@ -283,7 +283,7 @@ impl SeenColumn {
     }
 }
 
-/// Maximum number of rows that are searched for empty cells, because a small file can declare many more rows.
+/// Maximum number of rows that are searched for empty cells. A small file can declare many more rows.
 const SEARCHED: usize = 1_000_000;
 
 /// Number of empty cells among the first rows of a column.
@@ -296,7 +296,7 @@ fn empty_cells(table: &ForeignTable, name: &str) -> usize {
 /// Number of rows, spread over the table, that are searched for a non-zero number.
 const SPREAD: usize = 2_000;
 
-/// Adds the unit stated by the file to `candidates`, and leaves a gap for a force or a torque that is 0 in all rows.
+/// Adds the unit stated by the file to `candidates`. Leaves a gap (`"?"`) for a force or a torque that is 0 in all examined rows.
 fn complete(table: &ForeignTable, name: &str, candidates: &mut [Candidate]) {
     let stated = table.stated(name);
     let stated = stated.iter().find_map(|stated| stated.unit.as_deref());
@@ -337,10 +337,10 @@ fn complete(table: &ForeignTable, name: &str, candidates: &mut [Candidate]) {
     }
 }
 
-/// Minimum number of zero rows that make a channel doubtful.
+/// Minimum number of examined rows for the doubt that a channel with only zeros was measured.
 const LEAST_ZEROS: usize = 4;
 
-/// Leaves a gap for channels with a column for their validity: `force_valid` beside `force_z`.
+/// Leaves a gap (`"?"`) for each channel that another column marks as invalid in all examined rows: `force_valid` for `force_z`.
 fn open_invalid(columns: &mut [SeenColumn]) {
     let is_false = |cell: &String| {
         matches!(
@@ -376,7 +376,7 @@ fn open_invalid(columns: &mut [SeenColumn]) {
     }
 }
 
-/// Takes three unnamed numbers for forces, and six for forces and torques. Returns true for three or six.
+/// Takes exactly three unnamed columns of numbers for forces, or exactly six for forces and torques. Returns true if it does so.
 fn guess_channels(columns: &mut [SeenColumn]) -> bool {
     let names = ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"];
     let numbers: Vec<&mut SeenColumn> = columns

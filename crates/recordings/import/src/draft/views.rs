@@ -1,4 +1,4 @@
-//! Views of a sample: columns, folders and files whose names differ in a finger, an eye or a number.
+//! Finds views of a sample: columns, folders and files whose names differ in a finger, an eye or a number.
 
 use super::roles::words;
 
@@ -12,20 +12,20 @@ const SIDES: [&str; 26] = [
 /// Name that differs from others only in its side.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Sided {
-    /// Index among the names.
+    /// Index of the name in the list of compared names.
     pub(super) at: usize,
     /// Name of the view.
     pub(super) view: String,
 }
 
-/// Token of a name.
+/// Word or number of a name.
 struct Stretch<'a> {
     text: &'a str,
     /// Offset in the name, bytes.
     start: usize,
 }
 
-/// Names among `names` that differ only in one side or number, in the same order; empty for fewer than two.
+/// Finds the names that differ only in one side or number, in the order of `names`; empty for fewer than two.
 pub(super) fn sided(names: &[&str]) -> Vec<Sided> {
     let mut groups: Vec<(String, Vec<Sided>)> = Vec::new();
     for (at, name) in names.iter().enumerate() {
@@ -49,7 +49,7 @@ pub(super) fn sided(names: &[&str]) -> Vec<Sided> {
     largest.map(|(_, group)| group).unwrap_or_default()
 }
 
-/// Features of LeRobot as views, named by the last part of the feature name; empty if fewer than two features differ in that part.
+/// Views of a LeRobot dataset, named by the last part of the feature names; empty if fewer than two features differ in this part.
 pub(super) fn features<'n>(names: impl Iterator<Item = (usize, &'n str)>) -> Vec<Sided> {
     let mut found: Vec<Sided> = Vec::new();
     for (at, name) in names {

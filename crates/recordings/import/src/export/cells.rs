@@ -18,7 +18,7 @@ pub(super) fn kind(cells: &Cells<'_>) -> WrittenKind {
     }
 }
 
-/// Cell of a row.
+/// Cell of `row` for a table of another program; null if the dataset has no value.
 pub(super) fn cell(cells: &Cells<'_>, row: usize) -> Cell {
     let found = match cells {
         Cells::Number(_) | Cells::Measured(_) | Cells::Spacing(_) => {

@@ -82,7 +82,7 @@ impl Exported<'_> {
         left.map(|(_, what)| what.to_owned()).collect()
     }
 
-    /// True if a text has surrounding blanks, or is present but empty.
+    /// True if a text of the dataset has surrounding blanks, or is present but empty.
     fn has_blanks(&self) -> bool {
         let rows = self.dataset.table().rows();
         let texts = self.columns.iter().filter(|column| column.cells.is_text());
@@ -111,7 +111,7 @@ impl Exported<'_> {
         Ok(Some(name))
     }
 
-    /// Reports `rows` as done and stops if the export is cancelled.
+    /// Reports `rows` more exported rows as progress. Fails if the export is cancelled.
     pub(super) fn advance(&self, rows: usize) -> Result<(), ImportError> {
         self.progress.advance(rows as u64);
         match self.progress.is_cancelled() {

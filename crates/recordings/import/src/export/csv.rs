@@ -13,7 +13,7 @@ use taceva_dataset::internal::{layout, ordered_map, staging::StagedFolder, write
 
 /// File name of the table; rows are in the order of the dataset.
 const TABLE: &str = "labels.csv";
-/// Number of pictures that each job writes at once. Most of the time is spent waiting for the disk.
+/// Number of pictures per job that are written concurrently, because most of the time is spent waiting for the disk.
 const PICTURES_A_JOB: NonZeroUsize = NonZeroUsize::new(4).expect("four");
 
 pub(super) fn write(
@@ -78,7 +78,7 @@ pub(super) fn write(
 /// Column that names the pictures of a view.
 struct PathColumn {
     name: String,
-    /// Path of each row; empty if it has no picture.
+    /// Path of the picture of each row; empty for a row without a picture.
     paths: Vec<String>,
 }
 

@@ -95,7 +95,7 @@ pub(super) fn write(
     Ok((written, vec!["data".to_owned()]))
 }
 
-/// Dataset card: the sensor, the units, and the source of the data.
+/// Text of the dataset card: the sensor, the units, and the source of the data.
 fn card_of(exported: &Exported<'_>, taxels: Option<&str>) -> String {
     let dataset = exported.dataset;
     let header = dataset.header();

@@ -22,7 +22,7 @@ use taceva_dataset::internal::{RESERVED, staging::StagedFolder};
 
 const STATE: &str = "observation.state";
 const TAXELS: &str = "observation.tactile";
-/// Prefix of the feature names of pictures, followed by the view; `gel` for samples with one picture.
+/// Prefix of the feature names of pictures. The name of the view follows, or `gel` for samples with one picture.
 const PICTURES: &str = "observation.images";
 /// Number of pictures used for the statistics, about as many as LeRobot itself uses.
 const LOOKED_AT: usize = 100;
@@ -188,7 +188,7 @@ fn rate_hz(table: &Table) -> f64 {
     median.map_or(1.0, |step| (1.0 / step).round().clamp(1.0, 1e6))
 }
 
-/// Adds the pixels of a picture, scaled to the range 0 to 1.
+/// Adds the pixels of a picture, scaled to the range 0 to 1, to `stats`.
 fn add_picture(stats: &mut FeatureStats, frame: &Frame) {
     let format = frame.info().format;
     let full = f64::from(format.full_scale());

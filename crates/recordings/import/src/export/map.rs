@@ -27,7 +27,7 @@ pub(super) struct Written {
 
 /// Map entries for the pictures of a view.
 pub(super) struct WrittenFrames {
-    /// Key and value that locate the pictures, as TOML.
+    /// Map key and its value, which locate the pictures, as TOML.
     pub(super) key: String,
     /// File of the picture without contact.
     pub(super) reference: Option<String>,
@@ -202,7 +202,7 @@ pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
     text + &facts(header)
 }
 
-/// Instruments of the labels and of the sensor, in the order of TOML.
+/// Instruments of the labels and of the sensor, serialised as sections of the map.
 #[derive(Serialize)]
 struct Devices<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -230,13 +230,13 @@ struct Sensor<'a> {
     certificate: Option<&'a Certificate>,
 }
 
-/// Entry for `instrument`; `None` without an entry, and for several entries, which no map can state.
+/// The only entry for `instrument`; `None` without an entry, and for several entries, which no map can state.
 fn only(of: &[Traceability], instrument: Instrument) -> Option<&Traceability> {
     let mut of = of.iter().filter(|of| of.instrument == instrument);
     of.next().filter(|_| of.next().is_none())
 }
 
-/// Sections of instruments, sensor and footprint, as in the header.
+/// Map sections of instruments, sensor and footprint, with the facts of `header`.
 fn facts(header: &Header) -> String {
     let words = "texts, numbers and truth values can be written as TOML";
     let device = |instrument| {

@@ -7,9 +7,9 @@ use taceva_dataset::internal::{
 };
 use taceva_dataset::{DatasetError, TaskKind};
 
-/// Files of the maps of one task.
+/// Files of the depth maps of one task.
 pub(super) struct MapFiles {
-    /// Column of the task.
+    /// Name of the column of the task.
     pub(super) column: String,
     /// Folder of the files.
     pub(super) folder: String,
@@ -17,7 +17,7 @@ pub(super) struct MapFiles {
     pub(super) files: Vec<Option<String>>,
 }
 
-/// Writes every depth map of `dataset`: a picture as a PNG, other numbers as a `.npy` of 32-bit floating point with NaN for invalid pixels.
+/// Writes every depth map of `dataset`: a picture as PNG, other numbers as `.npy` of 32-bit floating point, with NaN for invalid pixels.
 pub(super) fn write(
     dataset: &Dataset,
     staged: &StagedFolder,
@@ -53,7 +53,7 @@ pub(super) fn write(
     Ok(written)
 }
 
-/// Extension and content of the file of the map with these bytes.
+/// File extension and file content of the depth map that the dataset stores as `bytes`.
 fn file_of(bytes: &[u8]) -> Result<(&'static str, Vec<u8>), String> {
     let parts = parts_of_map(bytes)?;
     if parts.form == MapForm::Png {

@@ -45,7 +45,7 @@ impl<'a> Pictures<'a> {
         })
     }
 
-    /// View of the pictures, if samples have several.
+    /// Name of the view, if samples have several pictures.
     pub(super) fn view(&self) -> Option<String> {
         self.dataset.view()
     }
@@ -58,7 +58,7 @@ impl<'a> Pictures<'a> {
         }
     }
 
-    /// Reduction that was applied before recording.
+    /// Reduction of the pictures that was applied before they were recorded.
     pub(super) fn reduced(&self) -> Option<&ReducedFrames> {
         self.dataset.header().frames.as_ref()?.reduced.as_ref()
     }

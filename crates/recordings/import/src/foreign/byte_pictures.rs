@@ -11,7 +11,7 @@ use super::said;
 use crate::error::ImportError;
 use taceva_dataset::ChannelOrder;
 
-/// Callback that receives the bytes of each cell.
+/// Callback that receives each row number and the bytes of its cell; `None` for an empty cell.
 type VisitBytes<'v> = &'v mut dyn FnMut(u64, Option<Vec<u8>>) -> Result<(), Ended<TableError>>;
 
 /// Table with columns of bytes.

@@ -20,7 +20,7 @@ impl Value<'_> {
     }
 }
 
-/// Value of [`item`], without the quotes of a quoted text.
+/// Same as [`item`], but a quoted text loses its quotes.
 pub(crate) fn value<'a>(cell: &'a str, index: &[usize]) -> Result<Value<'a>, String> {
     let found = item(cell, index)?;
     Ok(match unquoted(found) {
@@ -35,7 +35,7 @@ pub(crate) fn value<'a>(cell: &'a str, index: &[usize]) -> Result<Value<'a>, Str
     })
 }
 
-/// Text as an element of a list, quoted if it could be taken for several elements or for a different one.
+/// Writes a text as an element of a list. Quotes the text if it could be read as several elements or as another value.
 pub(crate) fn member(text: String) -> String {
     let is_special = |letter: char| letter.is_whitespace() || "[](),;\"'\\".contains(letter);
     match text.as_str() {

@@ -16,7 +16,7 @@ pub(super) struct ClipRows {
     times_s: Vec<f64>,
 }
 
-/// Column names: the frame number, from 0, and the time, s.
+/// Name of the column of frame numbers, from 0. The column `TIME` contains the time of each frame, s.
 const INDEX: &str = "index";
 const TIME: &str = "t";
 

@@ -1,4 +1,4 @@
-//! Frames of clips.
+//! Reads frames of clips.
 
 use std::path::{Path, PathBuf};
 
@@ -98,7 +98,7 @@ impl Pictures for ClipPictures {
     }
 }
 
-/// Converts the codes in a picture of a depth map to pixels of distances.
+/// Converts the codes in a picture of a depth map to pixels, which are distances.
 fn of_depth(picture: &taceva_video::Picture, depth: &DepthPixels) -> Result<Picture, String> {
     let taceva_video::Picture::Deep {
         width,

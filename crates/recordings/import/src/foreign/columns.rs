@@ -54,7 +54,7 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
         false
     }
 
-    /// Attributes that the file states for a column, one entry for each different set among the groups.
+    /// Attributes that the file states for a column. Groups of the file with different attributes give one entry each.
     fn stated(&self, _name: &str) -> Vec<Stated> {
         Vec::new()
     }
@@ -82,7 +82,7 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
     /// Columns that seem to contain pictures.
     fn picture_columns(&self) -> Vec<PictureColumn>;
 
-    /// Class lists stated by the file, for columns whose numbers index them.
+    /// Columns whose numbers denote classes, each with the list of class names that the file states.
     fn classes(&self) -> Vec<(String, Vec<String>)> {
         Vec::new()
     }
@@ -95,12 +95,12 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
     /// Pictures of the rows, by row number.
     fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, String>;
 
-    /// Clip and frame number of each row for the feature `key`. Clip paths are relative to the folder of the table.
+    /// Clip and frame number of each row for the LeRobot feature `key`. Clip paths are relative to the folder of the table.
     fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, String> {
         Err(format!("`{key}` names no clip: this table has no clips"))
     }
 
-    /// Distance for each code of the feature `key`; `None` if the feature is not a depth map.
+    /// Distance for each code of the LeRobot feature `key`; `None` if the feature is not a depth map.
     fn depth(&self, _key: &str) -> Option<DepthCodes> {
         None
     }
@@ -127,7 +127,7 @@ pub(crate) enum PictureKind {
     Array {
         is_gray: bool,
         is_planar: bool,
-        /// Minimum and maximum of the first frames; `None` if the values are pixels.
+        /// Minimum and maximum number in the first frames; `None` if the numbers are already pixels.
         range: Option<[f64; 2]>,
     },
 }
@@ -314,7 +314,7 @@ impl ColumnTable {
         self.source.element_names(column)
     }
 
-    /// Clip and frame number of each row for the feature `key`. Clip paths are relative to the folder of the table.
+    /// Clip and frame number of each row for the LeRobot feature `key`. Clip paths are relative to the folder of the table.
     pub(super) fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, ImportError> {
         let clips = guarded(|| self.source.clips(key)).and_then(|found| found);
         clips.map_err(|problem| ImportError::table(&self.path, problem))

@@ -1,4 +1,4 @@
-//! Text table whose cells are converted by the number form of a map.
+//! Text table whose cells are converted from the text form that a map states.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -9,7 +9,7 @@ use crate::csv_table::text_form::{TextForm, is_grouped};
 use crate::error::{ImportError, Place, table_error};
 use taceva_dataset::internal::shown;
 
-/// Minimum number of cells with a point before three digits that suggests digit groups.
+/// Minimum number of cells with three digits after the point that suggest digit groups.
 const LEAST_GROUPED: u64 = 3;
 
 /// Text table with its text form.
@@ -47,7 +47,7 @@ impl DelimitedTable {
         self.table.has(name)
     }
 
-    /// Cell as written.
+    /// Cell of a row in the column called `name`, as written in the file.
     pub(crate) fn written(&self, row: usize, name: &str) -> Result<&str, ImportError> {
         Ok(self.table.cell(row, self.table.position(name)?))
     }
@@ -65,8 +65,8 @@ impl DelimitedTable {
         }
     }
 
-    /// Example of a cell whose decimal point may be a digit separator, with the number of these cells in the column. `None` unless the column also contains
-    /// whole numbers, because columns of fractions with three digits are common.
+    /// Example of a cell whose decimal point may be a digit separator, and the number of such cells in the column. `None` unless the column also
+    /// contains whole numbers, because columns of fractions with three digits are common.
     pub(crate) fn grouped_digits(&self, name: &str) -> Option<(String, u64)> {
         if self.form.thousands.is_some() || self.form.decimal != '.' {
             return None;

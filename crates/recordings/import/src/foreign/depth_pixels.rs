@@ -1,4 +1,4 @@
-//! Conversion of the codes of a depth map to pixels.
+//! Converts the codes of a depth map to pixels.
 
 use taceva_tables::DepthCodes;
 

@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-/// File that is a row.
+/// Table with one row, which represents a file.
 #[derive(Debug)]
 pub(crate) struct FileRows {
     path: PathBuf,
 }
 
 impl FileRows {
-    /// Row that represents the file at `path`.
+    /// Table whose row represents the file at `path`.
     pub(super) fn one(path: &Path) -> FileRows {
         FileRows {
             path: path.to_owned(),

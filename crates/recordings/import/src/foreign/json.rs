@@ -10,7 +10,7 @@ use super::members::in_order;
 use crate::error::{ImportError, Place, table_error};
 use taceva_dataset::internal::{limits, read_capped, shown, utf8};
 
-/// Number of rows that are searched for member names.
+/// Maximum number of rows that are searched for member names, and of leaves of the first row.
 const LISTED: usize = 100;
 
 /// Rows of a JSON file.
@@ -138,7 +138,7 @@ impl JsonRows {
         }
     }
 
-    /// Value at the pointer `name`. The value of a row that is itself a number or a text is called `value`.
+    /// Value at the pointer `name`. If a row is itself a number, text or list, the name `value` denotes the whole row.
     fn at(&self, row: usize, name: &str) -> Option<&Value> {
         let value = &self.rows[row].value;
         match name {
@@ -194,7 +194,7 @@ impl JsonRows {
     }
 }
 
-/// Column of rows that are themselves numbers or texts.
+/// Name of the column of rows that are themselves numbers, texts or lists.
 const VALUE: &str = "value";
 
 /// True for a row without members: a number, a text or a list.

@@ -51,7 +51,7 @@ impl ColumnSource for LeRobotRows {
         self.dataset.kind_within(name) == Some(ColumnKind::Integer)
     }
 
-    /// Pictures, followed by depth maps with known codes.
+    /// Columns of pictures, then columns of depth maps with known codes.
     fn picture_columns(&self) -> Vec<PictureColumn> {
         let features = self.dataset.features().iter();
         let features = features.filter_map(|feature| {
@@ -73,7 +73,7 @@ impl ColumnSource for LeRobotRows {
         columns
     }
 
-    /// Depth maps with unknown codes.
+    /// Features that are not read: depth maps with unknown codes.
     fn unread(&self) -> Vec<String> {
         let features = self.dataset.features().iter();
         let depths = features.filter(|feature| {

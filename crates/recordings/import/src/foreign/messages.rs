@@ -24,10 +24,10 @@ const PICTURES: [&str; 6] = [
     "foxglove.CompressedImage",
 ];
 
-/// Filename extensions of recordings.
+/// Filename extensions of recordings of messages.
 const ENDINGS: [&str; 3] = ["mcap", "db3", "bag"];
 
-/// True for the filename extension of a recording.
+/// True for the filename extension of a recording of messages.
 pub(crate) fn is_recording(ending: &str) -> bool {
     ENDINGS.contains(&ending)
 }
@@ -57,7 +57,7 @@ pub(crate) struct Topics {
 }
 
 impl Topics {
-    /// Topics of the recording at `path`; for a truncated recording, the topics before its end.
+    /// Topics of the recording at `path`. A truncated recording has only the topics of its readable part.
     pub(crate) fn of(path: &Path) -> Result<Topics, String> {
         let recording = guarded(|| open(path, true)).and_then(|opened| opened)?;
         let topics = recording.topics().iter();
@@ -68,7 +68,7 @@ impl Topics {
     }
 }
 
-/// Opens the recording at `path`. With `is_to_cut`, a truncated recording is read up to its end.
+/// Opens the recording at `path`. A truncated recording is an error, unless `is_to_cut` permits reading only its complete records.
 fn open(path: &Path, is_to_cut: bool) -> Result<Recording, String> {
     let opened = match is_to_cut {
         true => Recording::open_to_cut(path),
@@ -92,7 +92,8 @@ fn before_cut(recording: &Recording) -> Option<BeforeCut> {
 }
 
 impl MessageRows {
-    /// Opens the messages of `topic`, or of the only topic. A truncated recording is read up to its end if requested.
+    /// Opens the messages of `topic`, or of the only topic. A truncated recording is an error, unless `is_to_cut` permits reading its complete
+    /// records.
     pub(super) fn open(
         path: &Path,
         topic: Option<&str>,
@@ -146,7 +147,7 @@ fn unread(recording: &Recording) -> Vec<String> {
 }
 
 impl MessageRows {
-    /// Colour order of the first picture, if its message states it.
+    /// Colour order that the message of the first picture states; `None` without such a statement.
     fn order_of(&self, field: &str) -> Option<ChannelOrder> {
         let mut order = None;
         let _ = self.table.visit_pictures(field, &[0], &mut |_, picture| {
@@ -159,7 +160,7 @@ impl MessageRows {
     }
 }
 
-/// Colour order of a sample form; `None` if the form states none.
+/// Colour order of pictures of the form `form`; `None` if the form states none.
 fn order_of(form: SampleForm) -> Option<ChannelOrder> {
     match form {
         SampleForm::Mono8 | SampleForm::Mono16 => Some(ChannelOrder::Gray),

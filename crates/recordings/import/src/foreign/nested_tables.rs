@@ -17,7 +17,7 @@ use taceva_dataset::internal::ImageKind;
 pub(super) trait NestedTable: ByteColumns + 'static {
     fn of_file(path: &Path) -> Result<Self, TableError>;
     fn all_names(&self) -> Vec<String>;
-    /// Metadata text of the file besides the schema.
+    /// Metadata of the file under `key`, outside the schema.
     fn beside(&self, key: &str) -> Option<&str>;
 }
 
@@ -42,7 +42,7 @@ macro_rules! nested_table {
 nested_table!(ParquetTable);
 nested_table!(ArrowTable);
 
-/// Rows of a nested table.
+/// Rows of a Parquet or Arrow table, whose cells may be nested.
 #[derive(Debug)]
 pub(super) struct NestedRows<T> {
     table: Arc<T>,

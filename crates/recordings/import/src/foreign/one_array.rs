@@ -1,4 +1,4 @@
-//! One array of a file of arrays, read by rows.
+//! Reads one array of a file of arrays by rows.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -69,7 +69,7 @@ impl OneArray {
         &self.shape
     }
 
-    /// Numbers of some rows.
+    /// Reads the numbers of the array in `rows`, in row order.
     pub(crate) fn read(&self, rows: Range<u64>) -> Result<Vec<f64>, ImportError> {
         let wrong = |problem: String| ImportError::table(&self.path, problem);
         let read = guarded(|| self.file.read(&self.name, rows)).map_err(wrong)?;
@@ -83,7 +83,7 @@ impl OneArray {
         })
     }
 
-    /// Number of unwritten chunks.
+    /// Number of unwritten chunks of the array.
     pub(crate) fn absent_chunks(&self) -> Result<u64, ImportError> {
         let wrong = |problem: String| ImportError::table(&self.path, problem);
         let counted = guarded(|| self.file.absent_chunks(&self.name)).map_err(wrong)?;

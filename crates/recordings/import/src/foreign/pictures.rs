@@ -29,12 +29,12 @@ pub(crate) trait Pictures: fmt::Debug + Send + Sync {
         each: Visit<'_>,
     ) -> Result<(), ImportError>;
 
-    /// Codec of the frames of a clip.
+    /// Codec of the frames of a clip; `None` for other files.
     fn codec(&self) -> Option<FrameCodec> {
         None
     }
 
-    /// File of the picture at `index`, and the number of the picture in that file.
+    /// File that contains the picture at `index`, and the number of the picture in that file.
     fn origin(&self, index: u64) -> (&Path, u64) {
         (self.path(), index)
     }
@@ -67,7 +67,7 @@ pub(crate) trait Pictures: fmt::Debug + Send + Sync {
     }
 }
 
-/// Callback that receives each picture.
+/// Callback that receives the number and the pixels or bytes of each picture.
 pub(crate) type Visit<'v> = &'v mut dyn FnMut(u64, Picture) -> Result<(), ImportError>;
 
 /// Reason why a visit ended early: the file is damaged, or the caller rejected a picture.

@@ -30,7 +30,7 @@ pub(crate) enum TableForm {
     /// Messages of one topic of a recording: MCAP, rosbag2 or a ROS 1 bag.
     Messages {
         topic: Option<String>,
-        /// True if a truncated recording is read up to its end.
+        /// True if the complete messages of a truncated recording are read; false if truncation is an error.
         is_to_cut: bool,
     },
     /// LeRobot folder, version 2.1 or 3.0.

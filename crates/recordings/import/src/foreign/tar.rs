@@ -13,10 +13,10 @@ const BLOCK: usize = 512;
 const NAME_BYTES: u64 = 64 << 10;
 /// Maximum number of members in an archive.
 pub(crate) const MEMBERS: u64 = 1 << 20;
-/// Maximum number of empty members, because a small archive can contain very many.
+/// Maximum number of empty members. A small archive can contain very many of them.
 pub(crate) const EMPTY_MEMBERS: u64 = 20_000;
 
-/// Error of an archive.
+/// Error in reading a tar archive.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub(crate) enum TarError {
@@ -57,11 +57,11 @@ pub(crate) trait Tape: Read {
     /// Skips `bytes` bytes. Returns false if the input has fewer bytes.
     fn skip(&mut self, bytes: u64) -> io::Result<bool>;
 
-    /// Total length, bytes; `None` if unknown.
+    /// Total length of the input, bytes; `None` if unknown.
     fn length(&self) -> Option<u64>;
 }
 
-/// File as input. Skipped bytes are not read.
+/// File as the input of an archive. Skipped bytes are not read.
 pub(crate) struct FileTape {
     pub(crate) file: BufReader<File>,
     pub(crate) length: u64,
@@ -214,7 +214,7 @@ impl<T: Tape> Members<T> {
         }
     }
 
-    /// Copies the content of `member`, the last one returned, to `into`. Fails if the archive ends early.
+    /// Copies the content of `member`, which must be the last returned member, to `into`. Fails if the archive ends early.
     pub(crate) fn copy(
         &mut self,
         member: &Member,
@@ -328,7 +328,7 @@ fn records(mut text: &[u8], at: u64) -> Result<Records, TarError> {
     Ok(found)
 }
 
-/// Name in the header block itself.
+/// Name of a member in its own header block, without extended headers.
 fn own_name(header: &[u8; BLOCK]) -> Vec<u8> {
     let text = |field: &[u8]| {
         let end = field.iter().position(|byte| *byte == 0);
@@ -364,7 +364,7 @@ fn number(field: &[u8]) -> Option<u64> {
     }
 }
 
-/// Length padded to whole blocks; `None` on overflow.
+/// `size` padded to whole blocks, bytes; `None` on overflow.
 fn filled(size: u64) -> Option<u64> {
     size.checked_next_multiple_of(BLOCK as u64)
 }

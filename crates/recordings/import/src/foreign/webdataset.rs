@@ -143,7 +143,7 @@ impl Shard {
 enum Field<'n> {
     Text(&'n str),
     Array(&'n str),
-    /// Field, and the pointer into the JSON of the field.
+    /// Name of the field, and the JSON pointer into its value.
     Json(&'n str, &'n str),
 }
 
@@ -163,7 +163,7 @@ fn ending_of(field: &str) -> &str {
     field.rsplit_once('.').map_or(field, |(_, ending)| ending)
 }
 
-/// Numbers of this shape as nested lists, in the shortest form that parses back.
+/// Nested lists of the shape `shape` of `numbers`, each in the shortest form that parses back.
 fn nested(shape: &[u64], numbers: &[f64]) -> String {
     match shape {
         [] => numbers
@@ -212,7 +212,7 @@ impl ColumnSource for Shard {
         }
     }
 
-    /// Members with unsupported forms, such as TenBin and pickles.
+    /// Unread members, whose forms are not supported, such as TenBin and pickles.
     fn unread(&self) -> Vec<String> {
         let first = self.samples.first().into_iter();
         let parts = first.flat_map(|first| &first.parts);
@@ -242,7 +242,7 @@ impl ColumnSource for Shard {
         names.iter().map(column).collect()
     }
 
-    /// True only for JSON integers. Text members have no type.
+    /// True if the column contains JSON integers, and no other values. Text members have no type.
     fn holds_integers(&self, name: &str) -> bool {
         let Field::Json(field, pointer) = Field::of(name) else {
             return false;

@@ -1,4 +1,4 @@
-//! Recordings in a tar archive.
+//! Unpacks recordings in a tar archive.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufReader, Read};
@@ -13,7 +13,7 @@ use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{open_regular, shown_path};
 use taceva_files::TemporaryFolder;
 
-/// Limit of the unpacked size of a compressed archive: `GROWTH` times the packed size, plus `GROWTH_BYTES`.
+/// Limit of the unpacked size of a compressed archive, bytes: `GROWTH` times the packed size, plus `GROWTH_BYTES`.
 const GROWTH: u64 = 128;
 const GROWTH_BYTES: u64 = 64 << 20;
 /// Name prefix of the folder of unpacked files.
@@ -64,9 +64,9 @@ impl UnpackedArchive {
     /// Needs memory for one header and one name. If the archive has a single folder at its top, that folder is the recording.
     ///
     /// # Errors
-    /// [`ImportError::Table`] naming the member if it is damaged, truncated or larger than the archive, or if its name leads out of the folder. Also
-    /// for links, devices and sparse files, for more than a million members, and if a compressed archive exceeds 128 times its size plus 64 MiB.
-    /// [`ImportError::Dataset`] if the disk is full, or `Cancelled`.
+    /// [`ImportError::Table`] naming the member if it is damaged, truncated or larger than the archive, or if its name leads out of the folder. The
+    /// same error occurs for links, devices, sparse files and more than a million members. A compressed archive may unpack to at most 128 times its
+    /// size plus 64 MiB. [`ImportError::Dataset`] if the disk is full, or `Cancelled`.
     pub fn open(
         archive: &Path,
         beside: &Path,
@@ -159,7 +159,7 @@ fn unusable(beside: &Path) -> impl FnOnce(io::Error) -> ImportError {
     }
 }
 
-/// True if a write failed because of the disk.
+/// True if a write failed because the disk is full or read-only, or because the file exceeds a limit.
 fn is_of_disk(kind: io::ErrorKind) -> bool {
     use io::ErrorKind::{FileTooLarge, QuotaExceeded, ReadOnlyFilesystem, StorageFull};
     matches!(

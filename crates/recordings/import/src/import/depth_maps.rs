@@ -15,7 +15,7 @@ use taceva_dataset::internal::{
 };
 use taceva_dataset::{Dataset, DatasetError, MapFacts, Place, Table};
 
-/// Depth maps of one task.
+/// Depth maps of one task that an import will write.
 #[derive(Debug)]
 pub(super) struct PlannedMaps {
     /// Position of the task in the map.
@@ -30,12 +30,12 @@ pub(super) struct PlannedMaps {
 #[derive(Debug)]
 enum MapSource {
     File(PathBuf, Place),
-    /// Position in the array.
+    /// Depth map at this position in the array, from 0.
     Row(u64),
 }
 
 impl PlannedMaps {
-    /// Depth maps of each task with depth maps, still without rows.
+    /// One entry, still without rows, for each task with depth maps.
     pub(super) fn of_tasks(
         map: &ImportMap,
         folder: &SourceFolder,
@@ -87,7 +87,7 @@ impl PlannedMaps {
         Ok(file)
     }
 
-    /// Checks that the array, if any, has `rows` maps, as many as the tables have rows.
+    /// Checks that the array of depth maps, if any, has one map for each of the `rows` table rows.
     pub(super) fn check_rows(&self, rows: u64) -> Result<(), ImportError> {
         match &self.array {
             Some(array) if array.count() != rows => Err(ImportError::table(
@@ -112,7 +112,7 @@ impl PlannedMaps {
         &self.name
     }
 
-    /// Writes the maps after the maps of `before`, and sets them in `table`, which has the planned rows.
+    /// Appends the maps to those of `before`, in the staged folder. Stores the position of each map in `table`, which has the planned rows.
     fn write(
         &self,
         staged: &StagedFolder,
@@ -165,7 +165,7 @@ impl PlannedMaps {
         Ok(pack.finish()?)
     }
 
-    /// Bytes of a map that has a separate file.
+    /// Stored bytes of a depth map that has a separate file.
     fn of_file(&self, path: &Path, place: &Place) -> Result<Vec<u8>, ImportError> {
         let is_png = path
             .extension()
@@ -192,7 +192,7 @@ impl PlannedMaps {
     }
 }
 
-/// Writes the depth maps of all tasks, and sets them in `table`. Returns the folder of the packs, if there is one.
+/// Writes the depth maps of all tasks, and stores their positions in `table`. Returns the folder of the maps; `None` without depth maps.
 pub(super) fn write_maps(
     maps: &[PlannedMaps],
     staged: &StagedFolder,
@@ -219,12 +219,12 @@ fn opened(own: &TaskMap, folder: &SourceFolder) -> Result<Option<MapsFile>, Impo
     MapsFile::open(&path, array.path.as_deref()).map(Some)
 }
 
-/// Number of rows and columns of the map with these bytes.
+/// Number of rows and columns of the depth map stored as `bytes`.
 fn size_of(bytes: &[u8]) -> [usize; 2] {
     parts_of_map(bytes).map_or([0; 2], |parts| [parts.rows, parts.columns])
 }
 
-/// Size of the first map of `before` for the task called `name`.
+/// Number of rows and columns of the first depth map of `before` for the task called `name`.
 fn size_of_first(before: &Dataset, name: &str) -> Result<Option<[usize; 2]>, ImportError> {
     for row in 0..before.table().rows() {
         if let Some(bytes) = before.depth_map_bytes(name, row)? {

@@ -98,7 +98,7 @@ impl fmt::Display for ImportSummary {
 }
 
 impl ImportSummary {
-    /// Writes the frames of a view.
+    /// Writes the lines that describe the frames of a view.
     fn write_frames(&self, frames: &FrameSummary, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let view = frames.view.iter();
         let view: String = view.map(|view| format!(" of the view {view}")).collect();
@@ -120,7 +120,7 @@ impl ImportSummary {
         }
     }
 
-    /// Writes the unmapped columns; columns with quality ratings get a separate line each.
+    /// Writes the names of columns that the map does not mention. Columns with quality ratings get a separate line each.
     fn write_unmentioned(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.unmentioned_columns.is_empty() {
             return Ok(());

@@ -69,8 +69,8 @@ impl ImportPlan {
     /// split.
     ///
     /// # Errors
-    /// [`ImportError::Dataset`] naming the key if the map contradicts the header, or naming the row if the dataset already has it. Also if `target`
-    /// is not an imported dataset. Otherwise errors of [`run`](ImportPlan::run). After an error `target` is unchanged.
+    /// [`ImportError::Dataset`] if `target` is not an imported dataset; naming the key if the map contradicts the header; naming the row if the
+    /// dataset already has it. Errors of [`run`](ImportPlan::run). After an error `target` is unchanged.
     ///
     /// ```
     /// # use taceva_core::{Channel, Channels, Clock, SilentProgress, SourceUnit};
@@ -153,7 +153,7 @@ impl ImportPlan {
         })
     }
 
-    /// List of source files of the dataset, followed by the list of the added folder.
+    /// Text that lists the source files of the dataset, then those of the added folder with their digests.
     fn sources(
         &self,
         before: &Dataset,

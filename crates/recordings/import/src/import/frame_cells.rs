@@ -12,14 +12,14 @@ pub(super) enum FrameCells {
     Column(usize),
     /// Path composed of texts and of the cells of columns, in order.
     Pattern(Vec<PatternPart>),
-    /// Column of the position in another file; `file` is `None` for the file of the table.
+    /// Position of the column that contains the number of the frame in another file; `file` is `None` for the file of the table.
     Within {
         file: Option<Vec<PatternPart>>,
         index: usize,
     },
-    /// Clip and frame number of each row, as the table itself states.
+    /// Clip and frame number of each row, as stated by a LeRobot table.
     Clips(Vec<(String, u64)>),
-    /// One frame for each row, by its position.
+    /// One frame for each row: the row number is the frame number.
     OfRow,
 }
 
@@ -29,7 +29,7 @@ pub(super) enum PatternPart {
 }
 
 impl PatternPart {
-    /// True if the cell that names the frame is empty.
+    /// True if this part is a cell, and that cell is empty.
     pub(super) fn is_empty<'c>(&self, cell: impl Fn(usize) -> &'c str) -> bool {
         match self {
             PatternPart::Text(_) => false,
@@ -41,11 +41,11 @@ impl PatternPart {
 /// Name of a row's frame.
 pub(super) enum FrameName {
     File(String),
-    /// Position in a file; `None` for the file of the table.
+    /// Frame at this position in a file; `None` for the file of the table.
     Within(Option<String>, u64),
 }
 
-/// Concatenates texts and cells to a path.
+/// Path that `parts` form: their texts and cells, joined.
 pub(super) fn filled<'c>(parts: &'c [PatternPart], cell: impl Fn(usize) -> &'c str) -> String {
     let texts = parts.iter().map(|part| match part {
         PatternPart::Text(text) => Cow::Borrowed(text.as_str()),

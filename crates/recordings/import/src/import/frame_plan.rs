@@ -1,4 +1,4 @@
-//! Sources of the frames of an import.
+//! Describes the source of each frame of an import.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -8,14 +8,14 @@ use crate::foreign::{Picture, Pictures};
 use taceva_dataset::internal::{encode_png, limits, read_capped};
 use taceva_dataset::{ChannelOrder, Place};
 
-/// Frames of one view, as planned.
+/// Sources of the frames of one view.
 #[derive(Debug)]
 pub(super) struct PlannedFrames {
     /// View of the frames, if rows have several pictures.
     pub(super) view: Option<String>,
     pub(super) order: ChannelOrder,
     pub(super) reference: Option<FrameSource>,
-    /// One entry for each kept row.
+    /// Source of the frame of each kept row.
     pub(super) of_rows: Vec<PlannedFrame>,
 }
 
@@ -86,10 +86,10 @@ impl FrameSource {
     }
 }
 
-/// File with pictures, with the wanted numbers in ascending order and the row of each.
+/// File that contains several pictures. The list has the wanted picture numbers in ascending order, each with its row.
 pub(super) type Within = (Arc<dyn Pictures>, Vec<(u64, usize)>);
 
-/// Files with pictures, each with its wanted numbers in ascending order and their rows.
+/// Files that contain several pictures, each with its wanted picture numbers and their rows.
 pub(super) fn within(frames: &PlannedFrames) -> Vec<Within> {
     let mut found: Vec<Within> = Vec::new();
     for (row, planned) in frames.of_rows.iter().enumerate() {

@@ -81,7 +81,7 @@ pub struct ImportMap {
     pub channels: Channels,
     /// Source column of each channel.
     pub columns: Vec<ColumnMap>,
-    /// Columns of the ids.
+    /// Columns of the ids of samples, such as the contact point.
     pub ids: IdMap,
     /// Text columns kept for splits: name and column.
     pub attributes: BTreeMap<String, String>,

@@ -11,7 +11,7 @@ use crate::source_folder::SourceFolder;
 use taceva_dataset::Digest;
 use taceva_dataset::internal::Mapping;
 
-/// Limits in a header: the number of named taxel columns, and the bytes per name. A digest represents the rest.
+/// Maximum number of taxel columns that a header names, and maximum length of a name, bytes. A digest represents the rest.
 const NAMED: usize = 64;
 const NAME_BYTES: usize = 256;
 

@@ -61,7 +61,7 @@ impl<'p> PatternColumn<'p> {
 }
 
 impl NumberForm {
-    /// Writes `cell` in this form. Texts other than whole numbers are unchanged.
+    /// Writes `cell` in the number form of a file name. Texts other than whole numbers are unchanged.
     pub(super) fn write(self, cell: &str) -> String {
         let NumberForm { add, digits } = self;
         let number = match (add, digits) {

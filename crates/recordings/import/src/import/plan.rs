@@ -53,7 +53,7 @@ pub struct ImportPlan {
     /// Pictures of each view.
     pub(super) frames: Vec<PlannedFrames>,
     pub(super) signals: Option<PlannedSignals>,
-    /// Depth maps of each task that has them.
+    /// Depth maps of each task with depth maps.
     pub(super) maps: Vec<PlannedMaps>,
     /// Summary of the map for the header.
     pub(super) mapping: Mapping,

@@ -8,7 +8,7 @@ use crate::error::ImportError;
 use crate::source_folder::SourceFolder;
 use taceva_dataset::{Place, Table};
 
-/// Picture without contact of each kept row, relative to the lab's folder.
+/// Paths of the pictures without contact, one for each kept row, relative to the lab's folder.
 #[derive(Debug, Default)]
 pub(super) struct References {
     of_rows: Vec<Option<String>>,
@@ -38,13 +38,13 @@ impl References {
         Ok(())
     }
 
-    /// Paths of the pictures without contact.
+    /// Distinct paths of the pictures without contact, inside `folder`.
     pub(super) fn paths(&self, folder: &SourceFolder) -> BTreeSet<PathBuf> {
         let named = self.of_rows.iter().flatten();
         named.map(|name| folder.path().join(name)).collect()
     }
 
-    /// Returns the reference of `view` if every row names the same picture. Otherwise stores the names as an attribute of `table`.
+    /// Returns the picture without contact of `view` if every row names the same picture. Otherwise stores the names as an attribute of `table`.
     pub(super) fn settle(
         self,
         folder: &SourceFolder,
@@ -75,6 +75,6 @@ impl References {
 pub(super) struct Settled {
     /// Picture that all rows share; `None` if rows differ.
     pub(super) reference: Option<PathBuf>,
-    /// Number of different pictures if rows differ.
+    /// Number of different pictures; 0 if all rows share one.
     pub(super) different: usize,
 }

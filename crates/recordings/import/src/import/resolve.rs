@@ -46,7 +46,7 @@ pub(super) struct Resolved {
     /// Columns of the main table that the map does not mention.
     pub(super) unmentioned: Vec<String>,
     pub(super) joins: Vec<JoinMatches>,
-    /// Unwritten chunks of the arrays read, by file and array.
+    /// Number of unwritten chunks of the arrays read, by file and array.
     pub(super) absent_chunks: BTreeMap<String, u64>,
     /// Main table, as read from its file.
     pub(super) main: ForeignTable,
@@ -59,17 +59,17 @@ pub(super) struct Resolved {
     pub(super) unread_topics: Vec<String>,
     /// Coordinate frames of the labels.
     pub(super) coordinate_frames: CoordinateFrames,
-    /// Folders of the joined tables that name files.
+    /// Folders of the joined tables that name pictures.
     pub(super) named_by: NamedBy,
 }
 
-/// Sources of the cells of a row.
+/// Sources of cells: the main table, the parts of its path, and the joined tables.
 struct Sources<'a> {
     map: &'a ImportMap,
     main: ForeignTable,
     /// Path of the main table relative to the source folder, with `/`.
     relative: String,
-    /// Parts of the path of each row; a single entry if all rows have the same path.
+    /// Captured parts of the path of each row; a single entry if all rows have the same path.
     captures: Vec<Vec<String>>,
     joined: Vec<Joined<'a>>,
     /// Time column in seconds; `None` if the table contains times as numbers.
@@ -79,7 +79,7 @@ struct Sources<'a> {
     decoders: &'a Decoders,
 }
 
-/// Resolves the table at `path` by `map`.
+/// Reads the table at `path` and the joined tables, and resolves the columns that `map` names.
 pub(super) fn resolve(
     map: &ImportMap,
     folder: &SourceFolder,
@@ -229,7 +229,7 @@ impl Sources<'_> {
         }
     }
 
-    /// Warns if only the messages before the end of a truncated recording are read.
+    /// Warns of truncated recordings of which only the complete messages are read.
     fn warn_of_cuts(&mut self, folder: &SourceFolder) {
         let joined = self.joined.iter().flat_map(Joined::tables);
         for table in std::iter::once(&self.main).chain(joined) {
@@ -247,7 +247,7 @@ impl Sources<'_> {
         }
     }
 
-    /// Cell of a column; in seconds if it is a time written as text.
+    /// Cell of the column `name`; converted to seconds if the column is the time and contains texts.
     fn cell_in_seconds(&self, row: usize, name: &str) -> Result<String, ImportError> {
         let is_time = self
             .map
@@ -260,7 +260,7 @@ impl Sources<'_> {
         }
     }
 
-    /// Extracts the labels from the path.
+    /// Extracts the parts that the pattern of `[path]` captures, from the path of the table or of each row.
     fn capture(&mut self) -> Result<(), ImportError> {
         let Some(pattern) = &self.map.path else {
             return Ok(());
@@ -321,7 +321,7 @@ impl Sources<'_> {
         (!self.main.has(name)).then_some((joined, column))
     }
 
-    /// Part of the path of a row called `part`.
+    /// Captured part called `part` of the path of a row.
     fn part(&self, row: usize, part: &str) -> Result<String, ImportError> {
         let names = self.map.path.iter().flat_map(|pattern| pattern.names());
         let names: Vec<&str> = names.collect();
@@ -340,7 +340,7 @@ impl Sources<'_> {
         }
     }
 
-    /// Replaces `{path.PART}` and `{path.PART:05}` in `text` by parts of the path of a row.
+    /// Replaces `{path.PART}` and `{path.PART:05}` in `text` by the captured parts of the path of a row.
     fn filled(&self, row: usize, text: &str) -> Result<String, ImportError> {
         let mut filled = String::new();
         let mut rest = text;

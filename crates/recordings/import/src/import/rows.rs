@@ -23,10 +23,10 @@ use taceva_video::Decoders;
 use views::MappedView;
 use zero::Zeros;
 
-/// Rule that drops rows in which a taxel did not measure.
+/// Name of the rule that leaves out rows with a number that means "not measured" among the taxels.
 pub(super) const SIGNAL_PLACEHOLDERS: &str = "placeholders of [signals]";
 
-/// Table with resolved columns.
+/// Table whose columns the map has resolved.
 pub(super) struct MappedTable<'a> {
     map: &'a ImportMap,
     table: ResolvedTable,
@@ -38,7 +38,7 @@ pub(super) struct MappedTable<'a> {
     pub(super) unread_topics: Vec<String>,
     /// Coordinate frames of the labels.
     pub(super) coordinate_frames: CoordinateFrames,
-    /// Unwritten chunks of the arrays read, by file and array.
+    /// Number of unwritten chunks of the arrays read, by file and array.
     pub(super) absent_chunks: BTreeMap<String, u64>,
     truth: Vec<usize>,
     sample: Option<usize>,
@@ -60,14 +60,14 @@ pub(super) struct MappedTable<'a> {
     /// Columns of each task.
     tasks: Vec<Vec<usize>>,
     time: Option<usize>,
-    /// Columns with the original table, row and picture; `None` if the map does not name them.
+    /// Columns with the path of the original table, the row number, and the path of the picture; `None` if the map does not name them.
     origin: [Option<usize>; 3],
     flags: Option<usize>,
     /// Pictures of the rows, for each view.
     pub(super) views: Vec<MappedView>,
     /// Taxel values of every row; `None` unless they are in columns of the table.
     signals: Option<ColumnSignals>,
-    /// Folders of the joined tables that name files.
+    /// Folders of the joined tables that name pictures.
     pub(super) named_by: NamedBy,
     /// True if the table has a column called `row`, which replaces the row number.
     pub(super) has_row_column: bool,
@@ -196,7 +196,7 @@ impl<'a> MappedTable<'a> {
         taceva_files::parent_of(self.table.path()).to_owned()
     }
 
-    /// Rules that drop the row.
+    /// Reasons to leave the row out: a join without a match, another coordinate frame, or rules of `[drop]`.
     pub(super) fn drop_reasons(&self, row: usize) -> Vec<String> {
         if let Some(join) = self.table.unmatched(row) {
             return vec![join.to_owned()];

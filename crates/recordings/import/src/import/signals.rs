@@ -1,4 +1,4 @@
-//! Signals of an import, planned with the kept rows and written when the import runs.
+//! Plans the signals of the kept rows, and writes them when the import runs.
 
 mod array;
 
@@ -24,13 +24,13 @@ pub(super) struct FoundSignals<'a> {
     kept: u64,
     /// Ranges of kept rows without contact.
     rest: Vec<[u64; 2]>,
-    /// Rows of an array in which a taxel did not measure.
+    /// Rows of the array with a number that means "not measured".
     placeholders: BTreeSet<u64>,
 }
 
 #[derive(Debug)]
 enum Found {
-    /// Values in memory, row by row.
+    /// Taxel values in memory, row by row.
     Numbers(Vec<f32>),
     /// Array that is read when the import runs, and the wanted rows.
     Array(ArraySignals, Vec<u64>),
@@ -70,12 +70,12 @@ impl<'a> FoundSignals<'a> {
         })
     }
 
-    /// True if the array row contains a number that means "not measured". `number` counts rows over all tables.
+    /// True if the row `number` of the array contains a number that means "not measured". `number` counts the rows of all tables.
     pub(super) fn is_placeholder(&self, number: u64) -> bool {
         self.placeholders.contains(&number)
     }
 
-    /// Adds the signals of a kept row. `number` is the index of the row over all tables.
+    /// Adds the signals of a kept row, whose index over all tables is `number`.
     pub(super) fn take(
         &mut self,
         rows: &MappedTable<'_>,
@@ -105,7 +105,7 @@ impl<'a> FoundSignals<'a> {
         Ok(())
     }
 
-    /// Error for a row in which one of the signals is not a number.
+    /// Error for a row whose signal at `position` is not a number.
     fn none_at(&self, rows: &MappedTable<'_>, row: usize, position: usize) -> ImportError {
         let columns = self.map.columns();
         let length = self.map.spec.info.len();
@@ -134,7 +134,7 @@ impl<'a> FoundSignals<'a> {
         )
     }
 
-    /// Counts the unwritten chunks of an array.
+    /// Adds the number of unwritten chunks of the array, if the signals are in an array, to `into`.
     pub(super) fn count_absent_chunks(
         &self,
         folder: &SourceFolder,
@@ -175,7 +175,7 @@ impl PlannedSignals {
         Ok(writer.finish()?)
     }
 
-    /// Appends the signals to `writer`. Keeps only some rows of an array in memory.
+    /// Appends the signals to `writer`. An array is read in blocks of rows, to save memory.
     pub(super) fn write_to(
         &self,
         writer: &mut SignalsWriter,

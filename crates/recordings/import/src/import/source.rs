@@ -49,7 +49,7 @@ pub(crate) fn matching_files(
     Ok(found)
 }
 
-/// Checks that links do not lead to the same file twice, because its rows would count twice.
+/// Checks that no two links lead to the same file, whose rows would then count twice.
 fn each_once(folder: &SourceFolder, pattern: &str, found: &[PathBuf]) -> Result<(), ImportError> {
     let mut known: BTreeMap<PathBuf, &PathBuf> = BTreeMap::new();
     for path in found {

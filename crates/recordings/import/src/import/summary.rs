@@ -32,7 +32,7 @@ use taceva_dataset::{ChannelOrder, LeftOut, names_quality};
 pub struct ImportSummary {
     /// Main tables, in reading order.
     pub tables: Vec<PathBuf>,
-    /// Number of files that are rows themselves; 0 if the map names a table.
+    /// Number of files, if each file is one row; 0 if the map names a table.
     pub files: u64,
     /// Number of rows in the main tables.
     pub rows_read: u64,
@@ -42,13 +42,13 @@ pub struct ImportSummary {
     pub points: u64,
     /// Number of rows dropped by each rule. Several rules may drop the same row.
     pub dropped: BTreeMap<String, u64>,
-    /// Row matches of each join.
+    /// Numbers of matched and unmatched rows of each join.
     pub joins: Vec<JoinSummary>,
     /// Conversion and number of values of each channel.
     pub conversions: Vec<Conversion>,
     /// Tasks, each with its kind, number of labels and cluster, in words.
     pub tasks: Vec<String>,
-    /// Zero subtracted from each force, if the map sets one.
+    /// Zeros subtracted from forces and torques; empty if the map sets none.
     pub zeros: Vec<ZeroSummary>,
     /// Weight subtracted from forces and torques, in words; `None` if no weight is subtracted.
     pub gravity: Option<String>,
@@ -56,7 +56,7 @@ pub struct ImportSummary {
     pub signals: Option<SignalInfo>,
     /// Frames of each view; empty without frames.
     pub frames: Vec<FrameSummary>,
-    /// Number of images beside the table that no row names.
+    /// Number of images in the lab's folder that no row names.
     pub unnamed_images: u64,
     /// The first 20 images that no row names, sorted.
     pub first_unnamed_images: Vec<PathBuf>,
@@ -76,7 +76,7 @@ pub struct ImportSummary {
     pub warnings: BTreeSet<ImportWarning>,
 }
 
-/// Frames of one view, or of rows with one picture.
+/// Summary of the frames of one view, or of the only picture of each row.
 ///
 /// ```
 /// # use taceva_import::{ImportMap, ImportPlan};
@@ -93,22 +93,22 @@ pub struct ImportSummary {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FrameSummary {
-    /// View; `None` if rows have one picture.
+    /// Name of the view; `None` if each row has only one picture.
     pub view: Option<String>,
     /// Colour order in the files.
     pub channel_order: ChannelOrder,
     /// Frame without contact; `None` if unknown.
     pub reference: Option<PathBuf>,
-    /// Number of different frames without contact, if rows name different ones. These pictures are not copied. The attribute `reference` or `reference_VIEW`
-    /// contains their names.
+    /// Number of different frames without contact, if they differ between rows; otherwise 0. These pictures are not copied. The attribute `reference`
+    /// or `reference_VIEW` contains their names.
     pub references: u64,
 }
 
-/// Limits of a header: the number of unmentioned columns, and the bytes per name.
+/// Maximum number of unmentioned columns that a header names, and maximum length of a name, bytes.
 const REMEMBERED: usize = 256;
 const REMEMBERED_BYTES: usize = 256;
 
-/// Row matches of a join.
+/// Numbers of matched, unmatched and excluded rows of a join.
 ///
 /// ```
 /// use taceva_import::JoinSummary;
@@ -138,7 +138,7 @@ pub struct JoinSummary {
 }
 
 impl ImportSummary {
-    /// Left-out items, in the form that the header of the dataset stores.
+    /// Numbers of left-out items, in the form that the header of the dataset stores.
     pub(super) fn left_out(&self) -> LeftOut {
         let of_joins = |count: fn(&JoinSummary) -> u64| {
             let joins = self.joins.iter();
@@ -157,14 +157,14 @@ impl ImportSummary {
         left_out
     }
 
-    /// Warnings, in the form that the dataset stores.
+    /// Warnings and suspicions, as texts that the dataset stores.
     pub(super) fn warnings_in_words(&self) -> Vec<String> {
         let warnings = self.warnings.iter().map(ToString::to_string);
         let suspicions = self.suspicions.iter().map(ToString::to_string);
         warnings.chain(suspicions).collect()
     }
 
-    /// Unmentioned columns, in the form that the dataset stores, columns with quality ratings first.
+    /// Unmentioned columns that the dataset stores. Columns with quality ratings come first.
     pub(super) fn columns_left_behind(&self) -> Vec<String> {
         let short = |name: &&String| name.len() <= REMEMBERED_BYTES;
         let mut columns: Vec<String> = self
@@ -197,7 +197,7 @@ impl ImportSummary {
 pub struct ZeroSummary {
     /// Name of the channel, such as `Fz`.
     pub channel: String,
-    /// Rule of the map, in words.
+    /// Rule of the map that selects the rows at zero force, in words.
     pub rule: String,
     /// Minimum of the means of all blocks, in the unit of the channel.
     pub least: f64,
@@ -207,7 +207,7 @@ pub struct ZeroSummary {
     pub blocks: u64,
 }
 
-/// Computation of one channel: unit(sign · scale · (cell − offset)).
+/// Computation of one channel: `sign · scale · (cell − offset)`, then converted to the stored unit.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, SourceUnit};

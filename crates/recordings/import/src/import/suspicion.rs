@@ -26,7 +26,7 @@ pub struct Suspicion {
     pub magnitude: f64,
     /// Unit of the channel in the dataset.
     pub unit: Unit,
-    /// Likely units, as the continuation of `are the numbers in`.
+    /// Likely units, as the end of the question `are the numbers in …`.
     pub perhaps: String,
 }
 
@@ -118,7 +118,7 @@ pub fn magnitude_suspicion(
     Some(found.suspicion(channel, perhaps))
 }
 
-/// Detects suspicious numbers like [`magnitude_suspicion`], for numbers converted from the unit `said`, which narrows the suggestions.
+/// Detects suspicious numbers like [`magnitude_suspicion`]. The numbers were converted from the unit `said`, which limits the suggested units.
 pub(super) fn magnitude_suspicion_in(
     channel: &Channel,
     said: &SourceUnit,

@@ -46,23 +46,23 @@ pub enum ImportWarning {
     ZeroSpread {
         /// Name of the channel.
         channel: String,
-        /// Rule of the map, in words.
+        /// Rule of the map that selects the rows at zero force, in words.
         rule: String,
     },
     /// Rows of a table that is joined by time share their times with other rows.
     RepeatedStamps {
         /// Name of the join in the map.
         join: String,
-        /// Number of rows with a time.
+        /// Number of rows of the joined table that have a time.
         rows: u64,
-        /// Number of different times. The first row of each time is used.
+        /// Number of different times in the joined table. The join uses the first row of each time.
         times: u64,
     },
-    /// Only the complete messages before the end of a truncated recording are read.
+    /// Only the complete messages of a truncated recording are read.
     CutRecording {
         /// File, relative to the lab's folder.
         file: String,
-        /// Number of messages before the truncated end, of all topics.
+        /// Number of complete messages of all topics.
         messages: u64,
         /// Offset of the end of the complete records, bytes.
         end: u64,
@@ -78,13 +78,13 @@ pub enum ImportWarning {
     JoinPause {
         /// Name of the join.
         join: String,
-        /// Number of rows of the main table that take labels across a pause.
+        /// Number of rows of the main table that are matched across a pause.
         rows: u64,
         /// Maximum time difference of a match, ms.
         farthest_ms: String,
         /// Usual step between rows of the joined table, ms.
         usual_ms: String,
-        /// Tolerance that would leave out the rows with labels across a pause, ms.
+        /// Tolerance that would leave out the rows matched across a pause, ms.
         tolerance_ms: String,
     },
     /// A joined table has rows at the times of the main table if the lag of the map is ignored.
@@ -119,11 +119,11 @@ pub enum ImportWarning {
         /// Name of a picture.
         name: String,
     },
-    /// A taxel often has a number far from all its other numbers, and the map lists no placeholders.
+    /// Many rows of a taxel have the same number, far from all other numbers of this taxel. The map lists no placeholders.
     TaxelCode {
         /// First column with the number, as the map names it.
         column: String,
-        /// The number.
+        /// Frequent number, as text.
         code: String,
     },
 }

@@ -1,4 +1,4 @@
-//! Maps of layouts with varying columns: a draft with the units of the layout.
+//! Drafts maps for layouts whose columns vary, with the units of the layout.
 
 use std::path::Path;
 

@@ -13,7 +13,7 @@ use crate::source_folder::SourceFolder;
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::{decode, limits, read_capped};
 
-/// Map text adapted to the folder.
+/// Text of the map of `layout`, adapted to `folder`.
 pub(super) fn text(layout: &Layout, folder: &SourceFolder) -> Result<String, ImportError> {
     let mut text = format!("{}\n", layout.map.trim_end());
     for instead in &layout.instead {
@@ -45,13 +45,13 @@ pub(super) fn text(layout: &Layout, folder: &SourceFolder) -> Result<String, Imp
     coloured(text, folder)
 }
 
-/// First file that matches `pattern`.
+/// Path of the first file that matches `pattern`; an error without a match.
 fn first(folder: &SourceFolder, pattern: &str) -> Result<std::path::PathBuf, ImportError> {
     let mut found = matching_files(folder, pattern)?;
     Ok(found.swap_remove(0))
 }
 
-/// First of `patterns` that a file matches.
+/// First of `patterns` that a file matches, or the first pattern if no file matches any.
 fn there<'p>(folder: &SourceFolder, patterns: &'p [String]) -> &'p str {
     let mut found = patterns
         .iter()
@@ -80,7 +80,7 @@ fn is_there(table: &ForeignTable, column: &str) -> bool {
     column.starts_with("path.") || ["group", "key", "row"].contains(&column) || table.has(base)
 }
 
-/// Text without the time column if the table lacks it.
+/// Text of the map, without the time column if the table lacks it.
 fn with_time(text: &str, table: &ForeignTable) -> String {
     let stated = text.split_once("[time]").and_then(|(_, time)| {
         let column = time
@@ -96,7 +96,7 @@ fn with_time(text: &str, table: &ForeignTable) -> String {
     }
 }
 
-/// Sets gray as the colour order if the first picture is gray, and removes a missing reference.
+/// Sets gray as the colour order if the first picture is gray. Sets the picture without contact to `unknown` if its file is missing.
 fn coloured(text: String, folder: &SourceFolder) -> Result<String, ImportError> {
     let reference = quoted(&text, "reference = \"").filter(|path| *path != "unknown");
     let text = match reference {
@@ -159,7 +159,7 @@ fn bristol(text: String, folder: &SourceFolder) -> Result<String, ImportError> {
     })
 }
 
-/// Selects the first sensor of the file, and the left-hand pictures if there are two.
+/// Selects the first sensor of the file in the map, and the left-hand pictures if there are two.
 fn touchd(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let path = folder.file(folder.path(), "all_data_direction.json")?;
     let wrong = |problem: &str| ImportError::table(&path, problem);
@@ -193,7 +193,7 @@ fn touchd(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
         .replace("image_{/0}.png", name))
 }
 
-/// Sets the actual column names of `f_t.csv`, and the header of `stages.csv` if it has one.
+/// Sets the actual column names of `f_t.csv` in the map, and `header` for `stages.csv` if the file has one.
 fn poseit(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let path = first(folder, "*/f_t.csv")?;
     let forces = CsvTable::read(&path)?;
@@ -227,14 +227,14 @@ fn poseit(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     })
 }
 
-/// Selects the last number of the line as the force.
+/// Selects the last number of each line as the force.
 fn tool_force(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let line = CsvTable::read_headerless(&first(folder, "*/force/force_data_*.txt")?)?;
     let last = line.names().len().saturating_sub(1);
     Ok(text.replace("\"force.0\"", &format!("\"force.{last}\"")))
 }
 
-/// Sets the names of the left gel and its pictures.
+/// Sets the names of the left gel and its pictures in the map.
 fn univtac(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let table = first_table(text, folder)?;
     let text = match table.has("/tactile/left_gsmini/pose") || table.has("/tactile/left_gsmini/rgb")
@@ -250,7 +250,7 @@ fn univtac(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     Ok(kept(&text, |_, column| is_there(&table, column)))
 }
 
-/// Sets the store, its `data` group, the first camera and the ends of episodes.
+/// Sets the store, its `data` group, the first camera and the ends of episodes in the map.
 fn diffusion_zarr(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let store = first(folder, "*.zarr")?;
     let name = store

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 /// Sections with one name and column per line.
 const OPTIONAL: [&str; 3] = ["[columns]", "[attributes]", "[task]"];
 
-/// Removes lines of channels, attributes and tasks for which `has` is false. The first remaining line of each name is kept.
+/// Removes lines of channels, attributes and tasks whose name and column `has` rejects. Of lines with the same name, the first is kept.
 pub(super) fn kept(text: &str, has: impl Fn(&str, &str) -> bool) -> String {
     let mut section = "";
     let mut names = BTreeSet::new();

@@ -14,7 +14,7 @@ use taceva_core::SilentProgress;
 use taceva_dataset::Dataset;
 use taceva_import::{ImportMap, ImportPlan};
 
-/// Limits of time and memory for an import.
+/// Maximum time of an import. `MEMORY_KIB` is its maximum memory, KiB.
 const TIME: Duration = Duration::from_secs(10);
 const MEMORY_KIB: u64 = 512 << 10;
 
@@ -93,7 +93,7 @@ fn refused(folder: &Path, map: &str, words: &[&str]) {
     }
 }
 
-/// File of the crates that read foreign forms, or of the recordings of the workspace.
+/// Path of a file in the workspace, given relative to the root of the workspace.
 fn workspace(path: &str) -> PathBuf {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../..")).join(path)
 }

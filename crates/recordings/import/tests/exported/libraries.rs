@@ -78,7 +78,7 @@ fn read_back(python: &Path, form: &str, folder: &Path) -> ReadBack {
     serde_json::from_str(line.expect("a line")).expect("JSON")
 }
 
-/// True if a cell equals that of the dataset: the same text, or the same bits in double or single precision.
+/// True if `found` equals `expected`: the same text, or numbers with the same bits in double precision, or in single precision if `is_single`.
 fn is_same(found: Option<&str>, expected: Option<&str>, is_single: bool) -> bool {
     let (Some(found), Some(expected)) = (found, expected) else {
         return found == expected;

@@ -24,7 +24,7 @@ pub(super) fn bytes_of(numbers: &[f32]) -> Vec<u8> {
         .collect()
 }
 
-/// Folder with two forces and these frames.
+/// Folder with a file of two forces and a file of the frames `frames`.
 fn lab(frames: &[u8]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let forces = npy("<f4", "(2,)", &bytes_of(&[1.0, 2.0]));
@@ -39,7 +39,7 @@ fn map(frame: &str) -> String {
     )
 }
 
-/// Error of planning or running an import of these frames.
+/// Error of planning or running an import of `frames`, with the lines `frame` in the map.
 fn problem(frames: &[u8], frame: &str) -> String {
     let folder = lab(frames);
     let plan = match planned(folder.path(), &map(frame)) {

@@ -35,7 +35,7 @@ fn import(folder: &Path, map: &str) -> Header {
     Dataset::open(&target).expect("opens").header().clone()
 }
 
-/// Header of a dataset that was imported by `first`, after rows of `second` were added.
+/// Header of a dataset that was imported with the map `first`, after a row was added with the map `second`.
 fn extended(first: &str, second: &str, new_certificate: bool) -> Result<Header, String> {
     let [one, two] = ["1\n2\n", "3\n"].map(|rows| lab(&[("labels.csv", &format!("Fz\n{rows}"))]));
     import(one.path(), first);

@@ -6,7 +6,7 @@ use super::arrays::npy;
 use super::left_out::left_out;
 use super::{NO_TIME, imported, lab, planned, refused};
 
-/// Map of these tables with `rows` in its section `[drop]`.
+/// Map of the tables that match `table`, with `rows` in its section `[drop]`.
 fn map(table: &str, rows: &str) -> String {
     format!(
         "table = \"{table}\"\n[columns]\nFz = {{ from = \"Fz\", unit = \"N\" }}\n[drop]\nrows = {rows}\n{NO_TIME}"

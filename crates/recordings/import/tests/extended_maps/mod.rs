@@ -33,7 +33,7 @@ opaque = "unknown"
 "#;
 const NO_TIME: &str = "[time]\nclock = \"unknown\"\n";
 
-/// Folder with files of these paths and texts.
+/// Folder with `files`, each with its path and its text.
 pub(crate) fn lab(files: &[(&str, &str)]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     for (path, text) in files {

@@ -22,7 +22,7 @@ gel = "unknown"
 opaque = "unknown"
 "#;
 
-/// Lines that a fragment needs around it, by its table.
+/// Required lines of each section of a map, which a fragment of the page omits.
 const AROUND: [(&str, &str); 7] = [
     ("frame", "channel_order = \"gray\"\nreference = \"unknown\""),
     ("join", "name = \"j\"\ntable = \"j.csv\""),
@@ -42,7 +42,7 @@ const AROUND: [(&str, &str); 7] = [
     ),
 ];
 
-/// Table of each key that the page writes without a table.
+/// Section of each key that the page writes without a section.
 const OF_KEY: [(&str, &str); 15] = [
     ("table", ""),
     ("rows", "table"),
@@ -66,12 +66,12 @@ fn parsed(map: &str) -> Result<(), String> {
     read.map(drop).map_err(|error| error.to_string())
 }
 
-/// Code between backquotes in a text.
+/// Texts between backquotes in `text`.
 fn code(text: &str) -> Vec<&str> {
     text.split('`').skip(1).step_by(2).collect()
 }
 
-/// Second cell of each row of the table below the heading. A `|` within code does not separate cells.
+/// Second cell of each row of the table below the heading `Find your layout`. A `|` within code does not separate cells.
 fn cells() -> Vec<&'static str> {
     let (_, section) = PAGE.split_once("## Find your layout").expect("a heading");
     let (section, _) = section.split_once("\n## ").expect("another heading");
@@ -81,7 +81,7 @@ fn cells() -> Vec<&'static str> {
         .collect()
 }
 
-/// Fragment of a map: its table, its keys, and their values if given.
+/// Fragment of a map: its section, its keys, and their values if given.
 struct Fragment {
     table: String,
     keys: Vec<String>,
@@ -94,7 +94,7 @@ fn filled(text: &str) -> String {
         .replace("{ … }", "{ column = \"t\", unit = \"s\" }")
 }
 
-/// Fragments of a cell. A column name is treated as a label.
+/// Fragments of a map in a cell of the page. A column name is treated as a label.
 fn fragments(cell: &str) -> Vec<Fragment> {
     let mut all: Vec<Fragment> = Vec::new();
     // A table name alone, as in "other topics by `[[join]]`", states no key.
@@ -129,7 +129,7 @@ fn fragments(cell: &str) -> Vec<Fragment> {
     all
 }
 
-/// Returns the table called `name` of a map, which is created if missing.
+/// Returns the section called `name` of `map`, which is created if missing.
 fn table_of<'m>(map: &'m mut Table, name: &str) -> &'m mut Table {
     let around = AROUND.iter().find(|(table, _)| *table == name);
     let around = around.map_or("", |(_, text)| text);
@@ -152,7 +152,7 @@ fn table_of<'m>(map: &'m mut Table, name: &str) -> &'m mut Table {
     }
 }
 
-/// Smallest map that contains the fragments of a cell.
+/// Smallest map that contains `fragments`.
 fn map_of(fragments: &[Fragment]) -> Table {
     let mut map: Table = toml::from_str(LEAST).expect("TOML");
     for Fragment { table, values, .. } in fragments {

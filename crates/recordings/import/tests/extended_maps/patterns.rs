@@ -24,7 +24,7 @@ fn map(frames: &str, more: &str) -> String {
     )
 }
 
-/// Pictures of the rows, in order.
+/// Names of the pictures of the rows, in order, for a map with the frame lines `frames`.
 fn pictures(frames: &str) -> Vec<String> {
     let (_, cells) = imported_from(presses().path(), &map(frames, ""), &["source_frame"]);
     cells.into_iter().flatten().collect()

@@ -9,7 +9,7 @@ use taceva_import::ImportSummary;
 use super::arrays::npy;
 use super::{NO_TIME, lab, planned};
 
-/// Summary, dataset and folder of an import whose rows name these references.
+/// Summary, dataset and folder of an import of three rows that name the pictures without contact `named`.
 fn imported(named: [&str; 3]) -> Result<(ImportSummary, Dataset, tempfile::TempDir), String> {
     let rows = named.iter().enumerate().map(|(at, name)| {
         format!("{{\"frame\": \"{at}.png\", \"ref\": \"{name}\", \"Fz\": {at}}}\n")
@@ -78,7 +78,7 @@ fn a_reference_that_is_not_there_names_its_row() {
     assert!(problem.contains("labels.jsonl, line 2"), "{problem}");
 }
 
-/// Reference of an import of arrays of three frames each, with the levels 10, 20 and 30.
+/// Level of the picture without contact after an import of arrays of three frames each, with the levels 10, 20 and 30.
 fn within(arrays: &str, reference: &str) -> Result<u8, String> {
     let folder = lab(&[("labels.csv", "run,k,Fz\n0,0,1\n0,1,2\n1,0,3\n")]);
     for run in ["0.npy", "1.npy"] {

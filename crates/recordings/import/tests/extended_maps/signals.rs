@@ -9,7 +9,7 @@ use taceva_dataset::Dataset;
 use super::arrays::{bytes_of, npy};
 use super::{NO_TIME, lab, planned, refused};
 
-/// Two taxels of two numbers in four columns, with a row that is dropped.
+/// Table of two taxels with two numbers each, in four columns, with a row that is dropped.
 const SKIN: &str = "Fz,a,b,c,d\n0,1,2,3,4\n-1,9,9,9,9\n0,5,6,7,8\n2,10,20,30,40\n";
 const MAP: &str = r#"
 table = "skin.csv"
@@ -246,7 +246,7 @@ fn an_array_of_other_rows_or_numbers_than_the_table_is_refused() {
     );
 }
 
-/// Three rows of 4 × 3 taxels with two numbers each, as an array of this shape, and their forces.
+/// Folder with three rows of 4 × 3 taxels with two numbers each, as an array of the shape `shape`, and with their forces.
 fn taxels_lab(shape: &str) -> tempfile::TempDir {
     let folder = lab(&[("skin.csv", "Fz\n1\n2\n3\n")]);
     let numbers: Vec<f32> = (0..72_u8).map(f32::from).collect();

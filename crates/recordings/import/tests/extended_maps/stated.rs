@@ -4,7 +4,7 @@ use super::arrays::{bytes_of, npy};
 use super::{NO_TIME, imported_from, planned};
 use taceva_arrays::{Hdf5Writer, WrittenElement};
 
-/// HDF5 file of two forces with these attributes.
+/// Folder with an HDF5 file of two forces, whose array has `attributes`.
 fn forces(attributes: &[(&str, &str)]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("run.h5");
@@ -137,7 +137,7 @@ fn files_that_are_counted_through_are_refused_where_10_stands_before_2() {
     planned(folder.path(), &map).expect("padded");
 }
 
-/// Two rows of three taxels in an HDF5 file with these attributes, beside a table.
+/// Folder with a table, and an HDF5 file of two rows of three taxels, whose array has `attributes`.
 fn taxels(attributes: &[(&str, &str)]) -> tempfile::TempDir {
     let folder = super::lab(&[("labels.csv", "Fz\n1\n2\n")]);
     let path = folder.path().join("skin.h5");

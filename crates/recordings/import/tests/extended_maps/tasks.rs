@@ -42,13 +42,13 @@ fn imported_to(folder: &Path, map: &str, target: &Path) -> Dataset {
     Dataset::open(target).expect("a dataset")
 }
 
-/// Dataset of the table with both tasks, in the folder.
+/// Dataset `set` in `folder`, imported from `TABLE` with the tasks `SLIP` and `CLOTH`.
 fn labelled(folder: &Path) -> Dataset {
     let lab = lab(&[("labels.csv", TABLE)]);
     imported_to(lab.path(), &map(&[SLIP, CLOTH]), &folder.join("set"))
 }
 
-/// Message for the table with a task changed from `from` to `to`.
+/// Error of an import of `TABLE` after `from` in the map was replaced by `to`.
 #[track_caller]
 fn refused_with(from: &str, to: &str) -> String {
     let text = map(&[SLIP, CLOTH]);

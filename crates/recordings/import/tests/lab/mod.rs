@@ -137,7 +137,7 @@ fn names(folder: &Path) -> Vec<PathBuf> {
     names
 }
 
-/// Gray picture that depends on `seed`.
+/// PNG of a gray picture that depends on `seed`.
 pub(crate) fn png(width: u32, height: u32, seed: u32) -> Vec<u8> {
     let image = GrayImage::from_fn(width, height, |x, y| {
         Luma([(x * 31 + y * 17 + seed * 7).to_le_bytes()[0]])
@@ -145,12 +145,12 @@ pub(crate) fn png(width: u32, height: u32, seed: u32) -> Vec<u8> {
     encoded(image.into(), ImageFormat::Png)
 }
 
-/// Coloured picture that depends on `seed`.
+/// JPEG of a coloured picture that depends on `seed`.
 pub(crate) fn jpeg(width: u32, height: u32, seed: u32) -> Vec<u8> {
     encoded(coloured(width, height, seed), ImageFormat::Jpeg)
 }
 
-/// Coloured picture that depends on `seed`.
+/// PNG of a coloured picture that depends on `seed`.
 pub(crate) fn rgb_png(width: u32, height: u32, seed: u32) -> Vec<u8> {
     encoded(coloured(width, height, seed), ImageFormat::Png)
 }

@@ -27,7 +27,7 @@ struct Expected {
     time: Option<(usize, f64)>,
 }
 
-/// Torques are stored in N·mm, positions in mm.
+/// Expected result of each layout. Torques are stored in N·mm, positions in mm.
 const EXPECTED: [Expected; 14] = [
     Expected {
         preset: "bristol",

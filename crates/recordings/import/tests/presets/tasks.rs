@@ -2,7 +2,7 @@
 
 use super::Expected;
 
-/// Positions of poses are stored in mm.
+/// Expected result of each layout with labels of tasks. Positions of poses are stored in mm.
 pub(super) const EXPECTED: [Expected; 6] = [
     Expected {
         preset: "touch-and-go",

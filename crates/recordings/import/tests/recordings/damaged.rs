@@ -9,7 +9,7 @@ use taceva_import::{Decoders, ImportMap, ImportPlan, MapDraft};
 
 use super::{copy, folder};
 
-/// Number of truncated copies of each file, and of copies with flipped bits.
+/// Number of truncated copies of each file. `FLIPS` is the number of copies with a flipped bit.
 const CUTS: u64 = 2;
 const FLIPS: u64 = 6;
 

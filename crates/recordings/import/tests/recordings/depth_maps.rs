@@ -13,7 +13,7 @@ use super::{copy, ffmpeg, folder, own_map};
 
 const NAME: &str = "lerobot-v3-depth";
 
-/// Copy of the recording with a changed description.
+/// Copy of the recording in which `from` in `meta/info.json` is replaced by `to`.
 fn changed(from: &str, to: &str) -> tempfile::TempDir {
     let target = tempfile::tempdir().expect("a folder");
     copy(&folder(NAME), target.path());
@@ -24,7 +24,7 @@ fn changed(from: &str, to: &str) -> tempfile::TempDir {
     target
 }
 
-/// Least and greatest pixel of the first picture of `source` by the map `text`, and the bits of a pixel.
+/// Least and greatest pixel of the first picture, and bits of a pixel, after an import of `source` by the map `text`.
 fn ends(source: &Path, text: &str, ffmpeg: Option<&str>) -> Result<([u32; 2], u8), String> {
     let map = ImportMap::parse("map.toml".as_ref(), text).map_err(|error| error.to_string())?;
     let decoders = Decoders {

@@ -6,7 +6,7 @@ use taceva_needs::{Need, skip};
 use super::expected::differences;
 use super::{copy, ffmpeg, folder, own_map};
 
-/// Copy of the recording without its map and its expected results.
+/// Copy of the recording `name` without its map and its expected results.
 fn bare(name: &str) -> tempfile::TempDir {
     let target = tempfile::tempdir().expect("a folder");
     copy(&folder(name), target.path());
@@ -16,7 +16,7 @@ fn bare(name: &str) -> tempfile::TempDir {
     target
 }
 
-/// Draft for the recording, with units, signs, offsets, scales and sensor from the map of its lab.
+/// Draft for the recording `name`, with units, signs, offsets, scales and sensor from its own map.
 fn finished_draft(name: &str) -> Result<String, String> {
     let draft = MapDraft::of(bare(name).path()).map_err(|error| error.to_string())?;
     let own: toml::Table = own_map(name).parse().expect("TOML");
@@ -115,7 +115,7 @@ fn a_draft_needs_nothing_but_units_of_most_recordings() {
     );
 }
 
-/// Draft of a map for a folder with these files.
+/// Text of the draft for a folder with `files`, each with its path and content.
 fn draft_of(files: &[(&str, Vec<u8>)]) -> String {
     let folder = tempfile::tempdir().expect("a folder");
     for (path, bytes) in files {
@@ -141,7 +141,7 @@ fn a_draft_offers_the_groups_of_a_file_as_contacts_beside_the_column_of_objects(
     );
 }
 
-/// NumPy file of bytes.
+/// NumPy file of unsigned bytes with the shape `shape`.
 fn npy(shape: &str, data: &[u8]) -> Vec<u8> {
     let header = format!("{{'descr': '|u1', 'fortran_order': False, 'shape': {shape}, }}");
     let length = u16::try_from(header.len()).expect("short");

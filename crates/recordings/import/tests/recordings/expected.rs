@@ -14,7 +14,7 @@ const ELSEWHERE: [&str; 3] = ["frame", "t_s", "file"];
 /// Recordings whose keys in `expected.json` are rows of the main table.
 const BY_SOURCE_ROW: [&str; 3] = ["join-time", "join-key", "taxels-csv"];
 
-/// Differences between the recording, imported by `map`, and its `expected.json`.
+/// Differences between the recording `name`, imported by `map`, and its `expected.json`.
 pub(crate) fn differences(name: &str, map: &str) -> Vec<String> {
     let target = tempfile::tempdir().expect("a folder");
     let target = target.path().join("dataset");

@@ -142,7 +142,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Offset in a file of this length: any offset, or every other time one near an end of the file.
+/// Offset in a file of `length` bytes: near the beginning or the end for every second `number`, otherwise anywhere.
 fn place(random: &mut Random, length: usize, number: usize) -> usize {
     let near = length.min(ENDS);
     match number % 4 {

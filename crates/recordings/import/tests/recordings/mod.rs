@@ -35,12 +35,12 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// Map of the recording.
+/// Text of the map of the recording `name`.
 fn own_map(name: &str) -> String {
     std::fs::read_to_string(folder(name).join("map.toml")).expect("it is there")
 }
 
-/// Imports the recording into `target` by the map `text`.
+/// Imports the recording `name` into `target` by the map `text`.
 fn import(name: &str, text: &str, target: &Path) -> Result<(), String> {
     let folder = folder(name);
     let map = ImportMap::parse("map.toml".as_ref(), text).map_err(|error| error.to_string())?;

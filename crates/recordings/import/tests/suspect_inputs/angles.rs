@@ -54,7 +54,7 @@ fn a_rotation_vector_of_half_a_turn_that_changes_its_sign_is_refused_or_stays_wh
     }
 }
 
-/// Map of a table `t.csv` with a time column, joined to `other` by time.
+/// Map of a table `t.csv` with a time column, joined by time to the table `other`. The lines `above` precede `columns`.
 fn joined(other: &str, columns: &str, above: &str) -> String {
     format!(
         "map_version = 2\ntable = \"t.csv\"\n{above}[columns]\n{columns}[time]\nclock = \"monotonic\"\ncolumn = \"t\"\nunit = \"s\"\n[[join]]\nname = \"rob\"\n\

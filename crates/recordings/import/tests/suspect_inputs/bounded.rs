@@ -86,7 +86,7 @@ fn the_input_that_another_test_names_is_imported_and_measured() {
     fs::write(folder.join("taken.txt"), taken).expect("written");
 }
 
-/// Imports the input in `folder`, or drafts its map. Returns the action, or the error in words.
+/// Imports the input in `folder`, or drafts its map. Returns a text that names the number of imported rows or the draft; the error in words.
 fn taken_in(folder: &Path) -> Result<String, String> {
     let archive = folder.join("lab.tar");
     let unpacked = archive
@@ -124,7 +124,7 @@ fn place_of(whole: &[u8], part: &[u8]) -> usize {
     places.position(|window| window == part).expect("there")
 }
 
-/// The same file with only 200 frames, which may be unpacked.
+/// HDF5 file like [`planes`], but with only 200 frames, which may be unpacked.
 fn fewer_planes() -> Vec<u8> {
     const FRAMES: u32 = 200;
     let mut bytes = planes();

@@ -12,7 +12,7 @@ const CLIP: &str = concat!(
     "/../../../tests/recordings/mp4-h264-baseline/clip.mp4"
 );
 
-/// Force that grows by 1 N per second, at 10 Hz.
+/// Table of a force that grows by 1 N per second, with rows at 10 Hz.
 fn log() -> String {
     let rows = (0..40).map(|row| format!("{0:.1},{0:.1}\n", f64::from(row) * 0.1));
     format!("t,fz\n{}", rows.collect::<String>())

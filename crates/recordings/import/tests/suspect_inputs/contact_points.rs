@@ -1,14 +1,14 @@
-//! Tests of drafts for recordings whose contact points only coordinates name.
+//! Tests of drafts for recordings whose contact points are identified only by coordinates.
 
 use super::drafts::{drafted, filled, wave, waves};
 use super::{lab, line, planned};
 
-/// One of eight places, in turn.
+/// Coordinates of the place of `row`: eight places in turn.
 fn place(row: usize) -> String {
     format!("{}.5,{}.25", row % 4, row % 8 / 4)
 }
 
-/// Table of `count` presses at these places.
+/// Table of `count` presses at the places of [`place`].
 fn presses(count: usize) -> String {
     let rows = (0..count).map(|row| format!("{},{}\n", place(row), wave(row)));
     format!("x_mm,y_mm,Fz_N\n{}", rows.collect::<String>())

@@ -29,7 +29,7 @@ fn folder(cam: &[f64], ft: &[f64]) -> tempfile::TempDir {
     ])
 }
 
-/// The only warning of an import.
+/// Text of the warning of an import, which must give exactly one. `more` are further lines of its map.
 fn warning(folder: &tempfile::TempDir, more: &str) -> String {
     let warnings = summary(folder.path(), &map(more)).warnings;
     assert_eq!(warnings.len(), 1, "{warnings:?}");

@@ -14,7 +14,7 @@ pub(super) fn wave(row: usize) -> f64 {
     ((row * 37 % 40) as f64 * 0.13 - 2.0) * 1.01
 }
 
-/// Several numbers that do not count up with the row.
+/// Text of `count` numbers that do not count up with the row.
 pub(super) fn waves(row: usize, count: usize) -> String {
     let cells: Vec<String> = (0..count).map(|at| wave(row + at).to_string()).collect();
     cells.join(",")
@@ -235,7 +235,7 @@ fn a_column_of_repeats_is_drafted_as_an_id_and_refused_as_an_attribute_with_the_
 
 const PICTURE: &[u8] = include_bytes!("../cases/times-as-text/img/00.png");
 
-/// Folder with a table and copies of one picture.
+/// Folder with `files`, and a copy of one picture at each path in `pictures`.
 pub(super) fn with_pictures(files: &[(&str, &str)], pictures: &[&str]) -> tempfile::TempDir {
     let folder = lab(files);
     for path in pictures {

@@ -44,12 +44,12 @@ fn case(name: &str) -> PathBuf {
         .join(name)
 }
 
-/// Map of a generated folder.
+/// Text of the map of the generated folder `name`.
 fn map_of(name: &str) -> String {
     std::fs::read_to_string(case(name).join("map.toml")).expect("it is there")
 }
 
-/// Folder with a Parquet file of these columns, whose cells are texts or numbers.
+/// Folder with a Parquet file `name` of `columns`, whose cells are texts or numbers.
 fn parquet_lab(name: &str, columns: &[&str], rows: &[Vec<Cell>]) -> tempfile::TempDir {
     let folder = lab(&[]);
     let kinds = rows[0].iter().map(|cell| match cell {
@@ -75,7 +75,7 @@ fn planned(folder: &Path, map: &str) -> Result<ImportPlan, String> {
     ImportPlan::new(folder, &map).map_err(|error| error.to_string())
 }
 
-/// Plan of an import by a map without its first and its last lines.
+/// Plan of an import by `map`, to which the version and the section of the sensor are added.
 fn planned_with(folder: &Path, map: &str) -> Result<ImportPlan, String> {
     planned(folder, &format!("map_version = 2\n{map}{FACTS}"))
 }
@@ -85,7 +85,7 @@ fn summary(folder: &Path, map: &str) -> ImportSummary {
     plan.summary().clone()
 }
 
-/// Codes of the warnings.
+/// Codes of the warnings in `summary`.
 fn codes(summary: &ImportSummary) -> Vec<&'static str> {
     summary.warnings.iter().map(ImportWarning::code).collect()
 }

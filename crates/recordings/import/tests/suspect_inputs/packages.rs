@@ -102,7 +102,7 @@ fn a_folder_of_lerobot_whose_version_bears_a_name_is_read_and_the_length_of_a_ve
     assert_eq!(forces[4].to_bits(), 6.0_f64.to_bits());
 }
 
-/// Table as `paxini-sdk` exports it: the resultant of each module, then four taxels of it.
+/// Table as `paxini-sdk` exports it: for each module, the resultant force and four taxels.
 fn paxini(modules: &[&str]) -> String {
     let axes = ["X", "Y", "Z"];
     let columns = modules.iter().flat_map(|module| {

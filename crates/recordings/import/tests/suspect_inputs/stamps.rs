@@ -2,7 +2,8 @@
 
 use super::{FACTS, codes, lab, summary};
 
-/// Warnings of the import of a table of `rows` times of whole seconds, joined with the file `name` by this time.
+/// Codes of the warnings, and summary, of an import that joins `rows` times in whole seconds with the file `name`. `time` is the time of the join in
+/// the map.
 fn warned(rows: u32, [name, text, from, time]: [&str; 4]) -> (Vec<&'static str>, String) {
     let times: String = (0..rows).map(|row| format!("{}\n", row / 10)).collect();
     let folder = lab(&[("t.csv", &format!("t\n{times}")), (name, text)]);

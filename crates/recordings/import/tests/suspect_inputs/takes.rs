@@ -27,7 +27,7 @@ fn take(episode: u32, tenths: std::ops::Range<u32>) -> Vec<Row> {
     tenths.map(row).collect()
 }
 
-/// Dataset in one data file, whose description states these lengths of the episodes 0, 1 and so on.
+/// Folder of a LeRobot dataset of `rows` in one data file. Its description states `lengths`, the number of rows of each episode.
 fn dataset(rows: &[Row], lengths: &[u32]) -> tempfile::TempDir {
     let mut episodes = String::new();
     for (episode, length) in lengths.iter().enumerate() {

@@ -90,7 +90,7 @@ fn a_code_of_taxels_that_the_map_does_not_list_is_warned_of_once() {
     assert_eq!(of_cells(-1), [""; 0]);
 }
 
-/// Map of a table `t.csv` with `time` and eight taxels.
+/// Map of a table `t.csv` with `time` and the taxels `from`, a grid of `places` × 1.
 fn map_with_taxels(from: &str, places: u32) -> String {
     format!(
         "map_version = 2\ntable = \"t.csv\"\n[signals]\nfrom = {from}\nunit = \"count\"\nplaces = [{places}, 1]\nchannels = [\"p\"]\n{NO_TIME}{FACTS}"

@@ -2,7 +2,7 @@
 
 use super::{FACTS, NO_TIME, assert_near, codes, imported, lab, planned, summary};
 
-/// Forces around a zero that differs between two files.
+/// Table of forces around a zero that differs between the files `FIRST` and `SECOND`.
 const FIRST: &str = "fz,gap,take\n0.10,2,a\n0.12,1,a\n1.11,0,a\n2.11,0,b\n0.11,3,b\n";
 const SECOND: &str = "fz,gap,take\n1.60,2,c\n1.62,1,c\n2.61,0,c\n3.61,0,d\n1.61,3,d\n";
 
@@ -138,7 +138,7 @@ fn rows_of_a_zero_that_differ_like_contacts_are_warned_of_and_the_dataset_keeps_
     );
 }
 
-/// Tool of 1 kg, 100 mm in front of the transducer, at rest and turned by 90 degrees about x.
+/// Table of readings of a tool of 1 kg, 100 mm in front of the transducer: at rest, and turned by 90 degrees about x.
 const TOOL: &str = "fx,fy,fz,tx,ty,tz,rx,ry,rz,x,y,z,w\n\
      0,0,-9.80665,0,0,0,0,0,0,0,0,0,1\n0,-9.80665,0,0.980665,0,0,1.5707963267948966,0,0,0.7071067811865476,0,0,0.7071067811865476\n\
      0,-9.80665,2,0.980665,0,0,1.5707963267948966,0,0,-0.7071067811865476,0,0,-0.7071067811865476\n";

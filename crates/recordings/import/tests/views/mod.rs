@@ -21,7 +21,7 @@ pub(super) const ROWS: u32 = 6;
 /// Map sections of time and sensor.
 pub(super) const FACTS: &str = "[time]\nclock = \"unknown\"\n[sensor]\nmodel = \"gripper\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = \"unknown\"\n";
 
-/// Map of two columns of pictures.
+/// Map with two views, left and right, whose pictures are named in two columns.
 pub(super) const TWO: &str = "map_version = 2\ntable = \"labels.csv\"\n\
     [[frame]]\nname = \"left\"\ncolumn = \"left_path\"\nchannel_order = \"gray\"\nreference = \"left/rest.png\"\n\
     [[frame]]\nname = \"right\"\ncolumn = \"right_path\"\nchannel_order = \"gray\"\nreference = \"unknown\"\n\
@@ -31,14 +31,14 @@ pub(super) fn two() -> String {
     format!("{TWO}{FACTS}")
 }
 
-/// Folder of two fingers: gray pictures of 48 × 36 on the left and of 60 × 36 on the right, all different.
+/// Folder of a gripper with two fingers: gray pictures of 48 × 36 on the left and of 60 × 36 on the right. All pictures differ.
 pub(super) fn gripper() -> TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     fill(folder.path(), 0, ROWS);
     folder
 }
 
-/// Writes `rows` rows, beginning with row `first`.
+/// Writes a table of `rows` rows and their pictures of both fingers into `folder`, beginning with row `first`.
 pub(super) fn fill(folder: &Path, first: u32, rows: u32) {
     let mut table = "left_path,right_path,Fz_N,note\n".to_owned();
     for side in ["left", "right"] {
@@ -86,7 +86,7 @@ pub(super) fn refusal(folder: &Path, map: &str) -> String {
     }
 }
 
-/// Draft of a folder with its gaps filled in.
+/// Text of the draft for `folder`, with its gaps filled in.
 pub(super) fn drafted(folder: &Path) -> String {
     let draft = MapDraft::of(folder).expect("a draft");
     draft.text().replace("model = \"?\"", "model = \"gripper\"")
@@ -98,7 +98,7 @@ pub(super) fn pixels(bytes: &[u8]) -> Vec<u8> {
     picture.into_luma8().into_raw()
 }
 
-/// Pixels of a row in a view.
+/// Pixels of the picture of `row` in the view `view`.
 pub(super) fn seen(dataset: &Dataset, view: &str, row: usize) -> Vec<u8> {
     let frame = dataset.seen(view).expect("a view").frame(row);
     frame.expect("read").expect("a frame").bytes().to_vec()

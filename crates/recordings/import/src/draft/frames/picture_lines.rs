@@ -1,11 +1,11 @@
-//! Frame lines for pictures in cells, arrays and clips of a table.
+//! Lines of `[frame]` for pictures in cells, arrays and clips of a table.
 
 use super::{Beside, FrameLines, of_sides, of_views};
 use crate::draft::tables::SeenTable;
 use crate::draft::views::features;
 use crate::foreign::{PictureColumn, PictureKind};
 
-/// Frame lines of the pictures in `main` itself, one entry for each view.
+/// Lines of `[frame]` for the pictures in `main` itself, one entry for each view.
 pub(super) fn in_table(main: &SeenTable<'_>) -> Vec<FrameLines> {
     let Some((first, others)) = main.pictures.split_first() else {
         return Vec::new();
@@ -37,7 +37,7 @@ pub(super) fn in_table(main: &SeenTable<'_>) -> Vec<FrameLines> {
     }
 }
 
-/// Frame lines of `picture`, with a comment on `others`, further picture arrays of the same table.
+/// Lines of `[frame]` for `picture`. A comment lists `others`: further picture arrays of the same table.
 pub(super) fn in_array(
     picture: &PictureColumn,
     beside: Option<Beside>,
@@ -96,7 +96,7 @@ pub(super) fn in_array(
     }
 }
 
-/// Usual range of pictures with values between `least` and `greatest`: 0 to 1, −1 to 1 or 0 to 255.
+/// Values of black and of full scale for pictures with values from `least` to `greatest`: 0 and 1, −1 and 1, 0 and 255, or else the extremes.
 fn guessed_range(least: f64, greatest: f64) -> (f64, f64) {
     match (least, greatest) {
         (least, greatest) if least >= 0.0 && greatest <= 1.0 => (0.0, 1.0),

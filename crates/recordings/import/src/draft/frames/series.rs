@@ -1,4 +1,4 @@
-//! Series of pictures whose names differ in a number. The number is in a column or counts the rows: `cam/gel_00001.png`.
+//! Series of pictures whose names differ in a number, such as `cam/gel_00001.png`. A column contains the number, or the number counts the rows.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
@@ -47,7 +47,7 @@ impl<'g> Series<'g> {
             .collect()
     }
 
-    /// Series of `files`; `None` for a single file and for numbers that no pattern can write.
+    /// Series of `files`; `None` for a single file, for repeated numbers and for numbers with too many digits.
     fn of(base: &'g str, around: [&'g str; 2], files: &[Numbered<'g>]) -> Option<Series<'g>> {
         let written = || files.iter().map(|file| file.digits);
         let is_padded = written().any(|digits| digits.len() > 1 && digits.starts_with('0'));
@@ -68,13 +68,13 @@ impl<'g> Series<'g> {
         })
     }
 
-    /// The first and the last number.
+    /// Least and greatest number of the pictures.
     fn ends(&self) -> (u64, u64) {
         let first = self.numbers.first().copied().unwrap_or_default();
         (first, self.numbers.last().copied().unwrap_or(first))
     }
 
-    /// Path of the pictures with `*` for the number.
+    /// Path of the pictures, with `*` instead of the number.
     fn glob(&self) -> String {
         let [before, behind] = self.around;
         match self.base {
@@ -83,7 +83,7 @@ impl<'g> Series<'g> {
         }
     }
 
-    /// Describes the pictures and their numbers in words.
+    /// Text for a comment: number and path of the pictures, first and last number.
     fn words(&self) -> String {
         let (first, last) = self.ends();
         format!(
@@ -93,7 +93,7 @@ impl<'g> Series<'g> {
         )
     }
 
-    /// Pattern line in which `column` contains the number.
+    /// Line `pattern`, in which `column` stands for the number, with `reason` as a comment.
     fn lines(&self, main: &SeenTable<'_>, column: &str, reason: &str) -> Vec<String> {
         let own = main.group.first();
         let own = own.rsplit_once('/').map_or("", |(own, _)| own);
@@ -111,7 +111,7 @@ impl<'g> Series<'g> {
         lines
     }
 
-    /// Frame lines for pictures whose numbers are in `column`.
+    /// Lines of `[frame]` for pictures whose numbers are in `column`.
     fn of_column(&self, main: &SeenTable<'_>, column: &SeenColumn) -> Vec<String> {
         let are_plain = filled(column)
             .all(|cell| whole_number(cell).is_some_and(|number| number.to_string() == cell));
@@ -127,7 +127,7 @@ impl<'g> Series<'g> {
         self.lines(main, &name, &reason)
     }
 
-    /// Frame lines for pictures in the order of the rows.
+    /// Lines of `[frame]` for pictures in the order of the rows.
     fn of_rows(&self, main: &SeenTable<'_>) -> Vec<String> {
         let name = match (self.ends().0, self.digits) {
             (0, 0) => "row".to_owned(),
@@ -217,14 +217,14 @@ fn is_shuffled(column: &SeenColumn, rows: usize) -> bool {
     })
 }
 
-/// True unless the times or numbers of the rows show that they were sorted after the recording.
+/// False if the times or numbers of the rows show that the rows were sorted after the recording.
 fn is_in_order(main: &SeenTable<'_>) -> bool {
     let mut columns = main.columns.iter();
     let is_sorted = !columns.any(|column| is_shuffled(column, main.rows));
     is_sorted && are_times_in_order(main)
 }
 
-/// True unless the times of the rows decrease.
+/// False if the times of the rows decrease.
 fn are_times_in_order(main: &SeenTable<'_>) -> bool {
     main.time().is_none_or(|time| {
         let times = time.column.cells.iter();
@@ -242,7 +242,8 @@ pub(super) fn has_column(groups: &[FileGroup], main: &SeenTable<'_>) -> bool {
             .any(|series| column_of(series, main).is_some())
 }
 
-/// Frame lines for pictures whose numbers are in a column of `main`, or else for as many pictures as rows. Returns one entry for each view.
+/// Lines of `[frame]` for each view. A column of `main` contains the picture numbers; without such a column, the pictures must be as many as the
+/// rows.
 pub(super) fn of(
     folder: &SourceFolder,
     groups: &[FileGroup],
@@ -306,11 +307,11 @@ pub(super) fn of(
     vec![first]
 }
 
-/// Line with a gap, for several series that are not views of one sample, such as colour and depth.
+/// Line `pattern` with a gap (`"?"`), for several series that are not views of one sample, such as colour and depth.
 const SEVERAL: &str =
     "pattern = \"?\"   # several series fit the rows: name the series of the sensor";
 
-/// Comment for a table without pictures, on the pictures of the folder that belong to no row.
+/// Comment of the draft that lists pictures of the folder that belong to no row of `main`.
 pub(super) fn none_found(groups: &[FileGroup], main: &SeenTable<'_>) -> String {
     let pictures = groups.iter().filter(|group| is_picture(&group.ending));
     let files: Vec<String> = pictures

@@ -9,7 +9,7 @@ use crate::draft::survey::FileGroup;
 use crate::draft::tables::{SeenColumn, SeenTable};
 use crate::source_folder::SourceFolder;
 
-/// Column that names pictures of a folder.
+/// Column whose cells name the pictures of a folder.
 struct Match<'t> {
     /// Folder of the pictures relative to the folder of the table; `None` if the pictures are outside the folder of the table.
     within: Option<&'t str>,
@@ -29,7 +29,7 @@ impl Match<'_> {
     }
 }
 
-/// Frame lines for pictures whose names without the extension are the cells of a column. Prefers pictures below the folder of the table.
+/// Lines of `[frame]` for pictures whose names without the extension are the cells of a column. Prefers pictures below the folder of the table.
 pub(super) fn of(
     folder: &SourceFolder,
     groups: &[FileGroup],

@@ -8,16 +8,16 @@ use crate::draft::tables::{SeenColumn, SeenTable};
 use crate::import::whole_number;
 use taceva_dataset::internal::is_attribute_name;
 
-/// Words in names of columns in which equal values mark rows that belong together.
+/// Words in the names of columns whose equal values mark rows that belong together.
 const SHARED: [&str; 14] = [
     "episode", "session", "trial", "object", "video", "clip", "take", "press", "run", "repeat",
     "grasp", "sequence", "point", "location",
 ];
 
-/// Words in names of columns that name the contact point, so coordinates need not name it.
+/// Words in the names of columns that identify the contact point, so that no coordinates are needed.
 const POINT: [&str; 4] = ["press", "grasp", "point", "location"];
 
-/// Line for the groups of a file, each of which may be a contact.
+/// Commented line `point_id = "group"`, if the file has groups; each group may be a contact.
 pub(super) fn group_points(main: &SeenTable<'_>) -> &'static str {
     match main.has_groups() {
         true => {
@@ -45,7 +45,7 @@ fn distinct<T: Ord>(mut values: Vec<T>) -> usize {
     values.len()
 }
 
-/// Column of `main` that the line of `channel` in the drafted `channels` names, if the line has no gap.
+/// Column of `main` from which `channels`, the drafted lines, read `channel`; `None` if that line has a gap.
 fn place_column<'t>(
     main: &'t SeenTable<'_>,
     channels: &str,
@@ -57,8 +57,7 @@ fn place_column<'t>(
     })
 }
 
-/// Line for contact points that their coordinates name, if most of these places repeat exactly. A sensor that rests and then moves has many places with
-/// only one row.
+/// Line `point_id` by coordinates, if most places in `main` repeat exactly. A sensor that rests and then moves has many places with only one row.
 fn repeated_places(main: &SeenTable<'_>, channels: &str) -> Option<String> {
     let [x, y] = ["Px", "Py"].map(|channel| place_column(main, channels, channel));
     let (x, y) = (x?, y?);
@@ -85,7 +84,7 @@ fn repeated_places(main: &SeenTable<'_>, channels: &str) -> Option<String> {
     })
 }
 
-/// Line for the contact point that repeats share: active for episodes and for coordinates that repeat exactly, otherwise commented out.
+/// Line `point_id` for rows of one contact point: active for episodes and for coordinates that repeat exactly, otherwise commented out.
 pub(super) fn shared_points(
     main: &SeenTable<'_>,
     parts: Option<&PathParts>,
@@ -145,7 +144,7 @@ pub(super) fn shared_points(
     }
 }
 
-/// Sorts the parts of a path into ids and attributes. Returns the channels among them.
+/// Adds the varying parts of a path to `ids` and `attributes`. Returns the parts that may be channels.
 pub(super) fn add_parts(
     parts: &PathParts,
     ids: &mut Lines,

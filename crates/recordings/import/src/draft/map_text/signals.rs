@@ -6,7 +6,7 @@ use super::NAMED;
 use crate::draft::tables::Taxels;
 use taceva_dataset::internal::first_names;
 
-/// Lines for `taxels`. `others` are alternative columns.
+/// Lines of `[signals]` for `taxels`. A comment names `others`, the alternative columns.
 pub(super) fn signals(taxels: &Taxels, others: &[String]) -> String {
     let names = |count: usize| match count {
         1 => "[\"value\"]".to_owned(),

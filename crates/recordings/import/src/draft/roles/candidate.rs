@@ -1,4 +1,4 @@
-//! Candidate columns for a channel, ranked by the certainty of their names.
+//! Candidate columns for a channel, ranked by how clearly their names state the channel.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use super::exclusion::{Exclusion, of_words};
 use super::words::words;
 use crate::unit_suffix::UnitSuffix;
 
-/// Column, or element of the lists in its cells, that may be a channel.
+/// Column that may be a channel, or element of the lists in its cells.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Candidate {
     pub(crate) channel: &'static str,
@@ -19,7 +19,7 @@ pub(crate) struct Candidate {
     pub(crate) unit: Option<(&'static str, UnitSource)>,
     /// True for counts and volts, which need a scale factor to become the channel.
     pub(crate) is_unscaled: bool,
-    /// Reason to leave a gap in the line: only the lab knows if the channel was measured.
+    /// Reason for a gap (`"?"`) in the line of the channel, if only the lab knows whether the channel was measured.
     pub(crate) open: Option<String>,
 }
 
@@ -39,21 +39,21 @@ const UNSCALED: [&str; 5] = ["adc", "count", "counts", "lsb", "raw"];
 /// Reason to take a column for a channel; the most certain reason first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Reason {
-    /// The name of the channel itself.
+    /// The column has the name of the channel.
     Name,
-    /// The name of the channel with a unit.
+    /// The column has the name of the channel with a unit.
     NameWithUnit,
-    /// Quantity and axis, given by the last part of the name alone.
+    /// The last part of the name states quantity and axis, with no other word.
     Words,
-    /// Quantity and axis, given together with other words: `left_force_z`.
+    /// The name states quantity and axis together with other words: `left_force_z`.
     MoreWords,
-    /// Quantity given by the name of the parent.
+    /// The name of the parent states the quantity.
     Parent,
-    /// Force without an axis, usually the normal force.
+    /// The name states a force without an axis, which is usually the normal force.
     NoAxis,
-    /// Position among the numbers of a wrench or a pose.
+    /// The name states a wrench or a pose, and the position of the number in it gives the channel.
     Position,
-    /// Axis without a quantity, or a guess from the number of columns.
+    /// The name states only an axis, or the number of columns suggests the channel.
     Guess,
 }
 
@@ -128,7 +128,7 @@ impl Quantity {
         }
     }
 
-    /// Words for the quantity.
+    /// Words in column names that denote the quantity.
     fn words(self) -> &'static [&'static str] {
         match self {
             Quantity::Force => &["force", "forces", "f", "load", "loadcell"],
@@ -171,7 +171,7 @@ impl Quantity {
     }
 }
 
-/// Words that do not indicate a quantity.
+/// Words in column names that do not denote a quantity.
 const NEUTRAL: [&str; 22] = [
     "sensor",
     "meas",
@@ -197,7 +197,7 @@ const NEUTRAL: [&str; 22] = [
     "applied",
 ];
 
-/// Parsed name of a number.
+/// Parsed name of a column, or of one number in its cells.
 pub(crate) struct Named {
     /// Words of the last part of the name, without its unit.
     own: Vec<String>,
@@ -349,7 +349,7 @@ impl Named {
         suffix.is_some_and(|suffix| suffix.of_quantity(quantity).is_some())
     }
 
-    /// Candidate for the number at `index` of the cell; `None` if the name indicates no channel, `Err` if the name excludes the column.
+    /// Channel that may be the number at `index` in each cell; `None` if the name indicates no channel, `Err` if the name excludes the column.
     pub(crate) fn candidate(&self, index: String) -> Option<Result<Candidate, Exclusion>> {
         let (channel, reason) = self.channel()?;
         if let Some(exclusion) = self.exclusion() {

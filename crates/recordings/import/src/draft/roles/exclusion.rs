@@ -5,11 +5,11 @@ use std::fmt;
 /// Reason to exclude a column from every channel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Exclusion {
-    /// Whole numbers that count up by one.
+    /// The column contains whole numbers that count up by one.
     Counting,
-    /// Name with a word for another quantity.
+    /// The name contains a word for another quantity.
     Word { word: String, said: &'static str },
-    /// Name with a unit of another quantity.
+    /// The name contains a unit of another quantity.
     Unit(String),
 }
 
@@ -23,7 +23,7 @@ impl fmt::Display for Exclusion {
     }
 }
 
-/// Words for quantities without a channel, searched anywhere in a name.
+/// Words for quantities without a channel, with the quantity that they mean. The words are searched anywhere in a name.
 const QUANTITIES: &[(&[&str], &str)] = &[
     (
         &[
@@ -164,7 +164,7 @@ const QUANTITIES: &[(&[&str], &str)] = &[
     (&["temp", "temperature", "voltage"], "another quantity"),
 ];
 
-/// Words that exclude numbers whose name has no axis.
+/// Words that exclude numbers whose name has no axis, with the quantity that they mean.
 const WITHOUT_AXIS: &[(&[&str], &str)] = &[
     (
         &["total", "resultant", "sum", "rms"],

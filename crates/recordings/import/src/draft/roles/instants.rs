@@ -1,4 +1,4 @@
-//! Columns of times as text.
+//! Recognises columns of times that are written as text.
 
 use super::Role;
 use crate::instant::TextInstant;

@@ -1,4 +1,4 @@
-//! Guesses the unit of a time.
+//! Guesses the unit of a column of times.
 
 use super::{Role, are_counts};
 
@@ -12,7 +12,7 @@ const UNIX_STEP_S: f64 = 3_600.0;
 /// Time units, each with the number of units per second.
 const UNITS: [(&str, f64); 4] = [("ns", 1e9), ("us", 1e6), ("ms", 1e3), ("s", 1.0)];
 
-/// Role of a time column. The unit follows from the last word of the name, from the size of recent dates, or from the step between rows.
+/// Role of a time column. The unit follows from the last word of the name, from the magnitude of present Unix times, or from the step between rows.
 pub(super) fn time(words: &[String], numbers: &[f64]) -> Role {
     let greatest = numbers.iter().copied().fold(0.0_f64, f64::max);
     let named = match words.last().map(String::as_str) {
@@ -66,7 +66,7 @@ pub(crate) fn is_logged(name: &str) -> bool {
     name.starts_with("log_time") || name.starts_with("publish_time")
 }
 
-/// Median positive step between sorted numbers.
+/// Median of the positive steps between `numbers` after sorting; `None` without such a step.
 pub(crate) fn median_step(numbers: &[f64]) -> Option<f64> {
     let mut sorted = numbers.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);

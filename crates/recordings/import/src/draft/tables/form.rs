@@ -11,10 +11,10 @@ use crate::csv_table::text_form::TextForm;
 use crate::draft::survey::FileGroup;
 use crate::foreign::{BeforeCut, ForeignTable, TableForm, cell_list};
 
-/// Map key for a table whose header consists of numbers.
+/// Map key for a table whose column names are the numbers from 0.
 pub(super) const NUMBERED_HEADER: &str = "header = true";
 
-/// Map key whose value is left open, with a comment, for a truncated recording.
+/// Map key with a gap (`"?"`), and a comment, for a recording that was cut or not closed.
 pub(super) fn cut_key(before: BeforeCut) -> (&'static str, String) {
     let BeforeCut { messages, end } = before;
     let comment = format!(
@@ -95,10 +95,10 @@ pub(super) fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, Stri
     }
 }
 
-/// Number of lines of a text that must consist of numbers to be taken for a table.
+/// Number of leading lines of a text that must consist of numbers, so that the text is taken for a table.
 const LINES: usize = 20;
 
-/// True if each cell in the first lines of a text is a number. The text is then a table without a header, not prose.
+/// True if each cell in the first lines of a text is a number. Such a text is a table without a header.
 fn is_numeric(path: &Path) -> bool {
     let Some(text) = beginning(path) else {
         return false;
@@ -139,7 +139,7 @@ fn is_of_numbers(names: &[String]) -> bool {
     names.iter().filter(is_number).count() * 2 > names.len()
 }
 
-/// True if the names are column positions, as pandas writes an array without names. The index column of pandas before them has no name.
+/// True if the names are the column positions from 0, as pandas writes an array without names. An unnamed index column may precede them.
 fn is_numbered(names: &[String]) -> bool {
     let names = match names {
         [index, rest @ ..] if index.is_empty() => rest,

@@ -1,4 +1,4 @@
-//! Taxels in the columns of a table: cells of many numbers, or runs of numbered columns.
+//! Finds taxels in the columns of a table: cells of many numbers, or runs of numbered columns.
 
 mod axes;
 
@@ -14,12 +14,12 @@ const MOST: usize = 4_096;
 /// Minimum number of numbered columns that are taken for taxels.
 const LEAST_RUN: usize = 8;
 
-/// Taxels with the values of their keys in a map.
+/// Taxels of a table, as values of the keys of `[signals]` in a map.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Taxels {
     /// Value of `from`, as TOML.
     pub(crate) from: String,
-    /// Value of `from` by positions, for a list of adjacent columns.
+    /// Value of `from` that lists adjacent columns by position; `None` for other columns.
     pub(crate) by_position: Option<String>,
     /// Shape of the lists in a cell, or the number of columns.
     pub(crate) shape: Vec<usize>,
@@ -31,7 +31,7 @@ pub(crate) struct Taxels {
     pub(crate) is_named: bool,
 }
 
-/// Minimum number of columns `t0`, `t1`, `t2`, … that are taken for numbers and not for times.
+/// Minimum number of consecutive columns `t0`, `t1`, `t2`, … for which `t` does not mean time.
 const LEAST_SERIES: usize = 3;
 
 /// Words in the names of taxel columns.
@@ -79,7 +79,7 @@ pub(super) fn open_numbered_times(columns: &mut [SeenColumn]) {
     }
 }
 
-/// Name before the number at its end, and that number.
+/// Splits a name into the text before the number at its end, and that number.
 fn counted(name: &str) -> Option<(&str, u32)> {
     let digits = name.bytes().rev().take_while(u8::is_ascii_digit);
     let (stem, number) = name.split_at(name.len() - digits.count());
@@ -132,7 +132,7 @@ fn shape_of(cell: &str) -> Option<Vec<usize>> {
 }
 
 impl SeenTable<'_> {
-    /// Taxels of a single array with many numbers per row.
+    /// Taxels of a table that is a single array with many numbers per row.
     pub(crate) fn taxels(&self) -> Option<Taxels> {
         let [column] = self.columns.as_slice() else {
             return None;

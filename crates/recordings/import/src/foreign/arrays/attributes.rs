@@ -1,4 +1,4 @@
-//! Attributes of arrays in a file.
+//! Reads attributes of arrays in a file.
 
 use taceva_arrays::{ArrayError, ArrayFile};
 
@@ -7,7 +7,7 @@ use crate::foreign::columns::Stated;
 /// Scale factor and offset that change nothing.
 const UNPACKED: [f64; 2] = [1.0, 0.0];
 
-/// Attributes of the numbers in an array.
+/// Unit, scale factor and offset of the numbers in an array, from its attributes.
 pub(crate) fn stated(file: &ArrayFile, array: &str) -> Stated {
     let said = |attribute: &str| file.attribute(array, attribute);
     let number = |attribute: &str| said(attribute)?.trim_matches(['[', ']']).parse().ok();
@@ -20,7 +20,7 @@ pub(crate) fn stated(file: &ArrayFile, array: &str) -> Stated {
     }
 }
 
-/// Arrays with unwritten chunks, and the number of unwritten chunks of each.
+/// Arrays among `names` that have unwritten chunks, each with the number of these chunks.
 pub(super) fn absent_chunks<'n>(
     file: &ArrayFile,
     names: impl Iterator<Item = &'n str>,
@@ -51,7 +51,7 @@ pub(super) fn unit_of_times(file: &ArrayFile, array: &str) -> Option<&'static st
     })
 }
 
-/// Problem without the path of the file, because the outer error names it.
+/// Problem of `error` without the path of the file, because the outer error names it.
 pub(super) fn problem(error: ArrayError) -> String {
     match error.array {
         Some(array) => format!("`{array}`: {}", error.problem),

@@ -8,7 +8,7 @@ use crate::foreign::cell_list;
 pub(super) struct Texts<'a>(pub(super) &'a ArrayValues);
 
 impl Texts<'_> {
-    /// Values from `first` on as nested lists of this shape. A text in a list is quoted if it could be taken for several values.
+    /// Values from `first` on as nested lists of the shape `shape`. A text in a list is quoted if it could be taken for several values.
     pub(super) fn packed(&self, first: usize, shape: &[usize]) -> String {
         match shape {
             [] => self.one(first),

@@ -1,4 +1,4 @@
-//! Columns of arrays as texts.
+//! Reads columns of arrays as texts.
 
 use taceva_arrays::{ArrayInfo, ArrayValues};
 use taceva_tables::Cell;
@@ -34,7 +34,7 @@ impl ArrayRows {
         Ok(Texts(&read.values).packed(0, &shape))
     }
 
-    /// Array in a group to which `name` in a map refers.
+    /// Path and description of the array to which `name` in a map refers, searched from `group`.
     pub(super) fn info(&self, group: &Group, name: &str) -> Option<(String, &ArrayInfo)> {
         candidates(&group.path, name)
             .into_iter()

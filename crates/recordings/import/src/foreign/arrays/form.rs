@@ -1,4 +1,4 @@
-//! Interpretation of the rows of an array as pictures: axes, number types, or encoded bytes.
+//! Interprets the rows of an array as pictures: axes, number types, or encoded bytes.
 
 use std::ops::Range;
 
@@ -135,7 +135,7 @@ pub(super) fn form_of(info: &ArrayInfo, names: &FrameNames) -> Result<(Form, u64
     Ok((form, row_bytes.ok_or("its rows exceed the address space")?))
 }
 
-/// Height, width and number of colours of the frames of an array. The last value is true if the colours are planar.
+/// Height, width and number of colours of the frames of an array, and true if the colours are planar.
 fn sides(shape: &[u64], layout: Option<ArrayLayout>) -> Result<(u32, u32, u64, bool), String> {
     let said = || {
         let sides: Vec<String> = shape.iter().map(u64::to_string).collect();

@@ -1,4 +1,4 @@
-//! Frames in arrays.
+//! Reads frames from arrays.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -91,7 +91,7 @@ impl ArrayPictures {
         })
     }
 
-    /// Reads consecutive rows of one array, a few megabytes at a time.
+    /// Reads consecutive rows of one array, a few megabytes at a time, and passes their pictures to `each`.
     fn visit_run(
         &self,
         array: &FrameArray,
@@ -155,7 +155,7 @@ impl Pictures for ArrayPictures {
     }
 }
 
-/// Converts `length` to `usize`. The length is within one read of a few megabytes.
+/// Converts `length` to `usize`. `length` must lie within one read of a few megabytes.
 fn as_size(length: u64) -> usize {
     usize::try_from(length).unwrap_or(usize::MAX)
 }

@@ -13,7 +13,7 @@ pub(super) struct Group {
     pub(super) rows: usize,
 }
 
-/// Paths of arrays to which `name` may refer: in the group, as a field of the table, or from the root.
+/// Paths of arrays to which `name` may refer: in `group`, as a field of the table, or from the root.
 pub(super) fn candidates(group: &str, name: &str) -> Vec<String> {
     let bare = name.trim_start_matches('/');
     let mut paths = Vec::new();
@@ -28,8 +28,7 @@ pub(super) fn candidates(group: &str, name: &str) -> Vec<String> {
     paths
 }
 
-/// Number of rows of a group: the most frequent length of the first axis of its arrays. If several lengths are equally frequent, the greatest of
-/// them.
+/// Number of rows of a group: the most frequent length of the first axis of its arrays. Of equally frequent lengths, the greatest counts.
 pub(super) fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
     let mut lengths: BTreeMap<u64, usize> = BTreeMap::new();
     let names = file.names();

@@ -42,7 +42,7 @@ impl ColumnSource for Refusing {
     }
 }
 
-/// Error of a cell in a file with `rows` rows, and the number of attempts to read its column for ten cells.
+/// Error of the last of ten cells in a column that cannot be read, and the number of attempts to read it. The file has `rows` rows.
 fn refused(rows: usize) -> (String, usize) {
     let file = tempfile::NamedTempFile::new().expect("a file");
     let reads = Arc::new(AtomicUsize::new(0));

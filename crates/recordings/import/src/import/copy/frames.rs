@@ -13,9 +13,10 @@ use crate::import::frame_plan::{FrameSource, PlannedFrames, within};
 use taceva_dataset::internal::{ImageKind, layout, ordered_map, staging::StagedFolder};
 use taceva_dataset::{DatasetError, FrameCodec, FramesInfo, ReferenceInfo, Table, ViewInfo};
 
-/// Number of frames that each job copies at once. Most of the time is spent waiting for the disk, and disks write several files at once faster.
+/// Number of frames per job that are copied concurrently. Most of the time is spent waiting for the disk, and disks write several files at once
+/// faster.
 const COPIES_A_JOB: NonZeroUsize = NonZeroUsize::new(4).expect("four");
-/// Maximum size of pictures from other files in memory while they are written, bytes.
+/// Total size, bytes, at which pictures read from a file with several pictures are written.
 const HELD_BYTES: usize = 16 << 20;
 
 /// Result of copying frames.
@@ -172,7 +173,7 @@ impl Copying<'_> {
         Ok(())
     }
 
-    /// Copies the pictures of one file. `rows` contains their numbers in ascending order, each with the row.
+    /// Copies the pictures of one file. `rows` contains the picture numbers in ascending order, each with its row.
     fn within(
         &mut self,
         pictures: &dyn Pictures,

@@ -1,4 +1,4 @@
-//! Certificates of a dataset and of the rows that are added to it.
+//! Compares the certificates of a dataset with those of the rows that are added to it.
 
 use std::collections::BTreeSet;
 

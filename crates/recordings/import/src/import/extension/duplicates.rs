@@ -9,7 +9,7 @@ use taceva_dataset::{Dataset, Digest, FrameEntry, SignalsInfo, Table, ViewFrames
 
 use crate::error::ImportError;
 
-/// Minimum number of different repeated pictures for a duplicate. No camera takes the same picture twice by chance.
+/// Minimum number of different pictures that duplicate rows share with the dataset. No camera takes the same picture twice by chance.
 const SAME_PICTURES: usize = 3;
 
 /// Rejects new rows of `table` that duplicate rows of `before`: the same sample name, or equal labels, time, frame and signals.
@@ -120,7 +120,7 @@ fn refuse_same_pictures(
     )))
 }
 
-/// Origin of a new row, if its table states the origin.
+/// Names a new row in a message: by the row and table of its origin, otherwise by its number among the new rows.
 fn origin(table: &Table, row: usize, old: usize) -> String {
     match (&table.source_table()[row], table.source_row()[row]) {
         (Some(source), Some(number)) => format!("row {number} of {}", shown(source)),

@@ -9,7 +9,7 @@ use toml::Spanned;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{check_relative, line_of, toml_error};
 
-/// Checker that reports the line of the map.
+/// Path and text of a map, so that errors can state the line.
 pub(super) struct Check<'a> {
     pub(super) path: &'a Path,
     pub(super) text: &'a str,

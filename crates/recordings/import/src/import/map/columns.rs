@@ -49,7 +49,7 @@ impl ColumnMap {
     }
 }
 
-/// Columns of the ids.
+/// Columns of the ids of samples, such as the contact point.
 ///
 /// ```
 /// use taceva_import::IdMap;
@@ -62,30 +62,30 @@ impl ColumnMap {
 #[non_exhaustive]
 #[serde(deny_unknown_fields, default)]
 pub struct IdMap {
-    /// Name of a sample; `None` uses the row number, from 0.
+    /// Column of the sample name; `None` uses the row number, from 0.
     pub sample: Option<String>,
-    /// Contact point. Several columns are joined with `:`; a `:` or `\` within a cell is escaped with `\`.
+    /// Columns of the contact point, whose cells are joined with `:`. A `:` or `\` within a cell is escaped with `\`.
     #[serde(deserialize_with = "one_or_more")]
     pub point_id: Vec<String>,
-    /// Sensor unit, for several units of one model.
+    /// Column of the sensor unit, if a recording has several units of one model.
     pub unit_id: Option<String>,
-    /// Light scene, or another varied condition.
+    /// Column of the light scene, or of another varied condition.
     pub scene: Option<String>,
-    /// Depth level within a press, a whole number from 0.
+    /// Column of the depth level within a press, a whole number from 0.
     pub depth_step: Option<String>,
-    /// Number of the repeat of a contact, a whole number from 0.
+    /// Column of the number of the repeat of a contact, a whole number from 0.
     pub repeat: Option<String>,
-    /// Phase of the press: cells are `load` or `unload`.
+    /// Column of the phase of the press, with the cells `load` and `unload`.
     pub phase: Option<String>,
-    /// Gel limit that ended a press, such as `normal-force`.
+    /// Column of the gel limit that ended a press, such as `normal-force`.
     pub limited_by: Option<String>,
-    /// Standard uncertainty of the height from which a depth is measured, mm.
+    /// Column of the standard uncertainty of the height from which a depth is measured, mm.
     pub zero_u_mm: Option<String>,
-    /// Declared part of a split.
+    /// Column of the declared part of a split.
     pub part: Option<String>,
-    /// Relief of a grating: `line` or `dot`.
+    /// Column of the relief of a grating, with the cells `line` and `dot`.
     pub kind: Option<String>,
-    /// Spacing of a grating, mm, as decimal text.
+    /// Column of the spacing of a grating, mm, as decimal text.
     pub spacing_mm: Option<String>,
 }
 
@@ -112,18 +112,18 @@ impl IdMap {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct OriginMap {
-    /// Column with the original table.
+    /// Column with the path of the original table.
     pub(crate) table: Option<String>,
     /// Column with the row number in the original table, from 0.
     pub(crate) row: Option<String>,
-    /// Column with the original picture.
+    /// Column with the path of the original picture.
     pub(crate) frame: Option<String>,
-    /// Column with the original picture of each view, if rows have several pictures.
+    /// Column with the path of the original picture, for each view, if rows have several pictures.
     pub(crate) frames: BTreeMap<String, String>,
 }
 
 impl OriginMap {
-    /// Columns that the map names.
+    /// All columns of the table that contain an origin.
     pub(crate) fn columns(&self) -> impl Iterator<Item = &String> {
         let own = [&self.table, &self.row, &self.frame].into_iter().flatten();
         own.chain(self.frames.values())

@@ -1,4 +1,4 @@
-//! Section [drop] of a map as written.
+//! Section `[drop]` of a map, as written.
 
 use std::collections::BTreeMap;
 

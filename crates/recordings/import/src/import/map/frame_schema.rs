@@ -124,7 +124,7 @@ impl WrittenFrames {
         })
     }
 
-    /// Name of an array that the map gives as a text.
+    /// Name of the array, if the map states only its name.
     pub(super) fn array_name(&self) -> Option<&str> {
         self.each()
             .into_iter()

@@ -12,7 +12,7 @@ use taceva_dataset::{DatasetError, Known, Leds, SensorFacts};
 /// Entries of a certificate as written.
 type WrittenCertificate = Spanned<BTreeMap<Spanned<String>, Value>>;
 
-/// Section of a transducer or a robot.
+/// Map section of a transducer or a robot, as written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct WrittenInstrument {
@@ -21,7 +21,7 @@ pub(super) struct WrittenInstrument {
     certificate: Option<WrittenCertificate>,
 }
 
-/// Section of the sensor.
+/// Map section of the sensor, as written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct WrittenSensor {

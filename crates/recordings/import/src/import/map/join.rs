@@ -5,17 +5,17 @@ use std::collections::BTreeMap;
 use super::TimeMap;
 use crate::foreign::TableForm;
 
-/// Joined table. Its columns are called `NAME.column`.
+/// Joined table. A map names its columns `NAME.column`, with the name of the join.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct JoinMap {
     pub(crate) name: String,
     /// File relative to the source folder. A placeholder such as `{path.run}` stands for the part called `run` in the path of the main table. The
-    /// rows of the main table become samples.
+    /// main table is the table whose rows become samples.
     pub(crate) file: String,
     pub(crate) form: TableForm,
     pub(crate) by: JoinBy,
     pub(crate) unmatched: Unmatched,
-    /// Rows that are excluded from matching: column and number.
+    /// Pairs of a column and a number. A row with this number in the column is excluded from matching.
     pub(crate) skip: Vec<(String, f64)>,
     /// Coordinate frame to which candidate rows are restricted.
     pub(crate) frame_id: Option<String>,
@@ -42,7 +42,7 @@ pub(crate) struct TimeJoin {
     /// Time of the joined table.
     pub(crate) time: TimeMap,
     pub(crate) pick: Pick,
-    /// Maximum time difference, ms.
+    /// Maximum time difference between matched rows, ms.
     pub(crate) tolerance_ms: f64,
     pub(crate) lag: Lag,
 }
@@ -50,22 +50,22 @@ pub(crate) struct TimeJoin {
 /// Offset of the clock of the joined table from the clock of the main table, ms.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Lag {
-    /// Constant for all rows.
+    /// Constant offset, ms.
     Fixed(f64),
-    /// Offset for each file, by the path of the main or the joined table.
+    /// Offset for each file, ms, by the path of the main or the joined table.
     Files(BTreeMap<String, f64>),
-    /// Offset in this column of the main table.
+    /// Column of the main table that contains the offset, ms.
     Column(String),
 }
 
 impl TimeJoin {
-    /// Maximum time difference, s.
+    /// Maximum time difference between matched rows, s.
     pub(crate) fn tolerance_s(&self) -> f64 {
         self.tolerance_ms / 1e3
     }
 }
 
-/// Choice among the rows near a time.
+/// Rule that selects rows near a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Pick {
@@ -78,7 +78,7 @@ pub(crate) enum Pick {
 }
 
 impl Pick {
-    /// Name of the choice in a map.
+    /// Name of the rule in a map.
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Pick::Nearest => "nearest",

@@ -2,10 +2,10 @@
 
 use taceva_core::SourceUnit;
 
-/// `channels = matrix · (columns − offset)`.
+/// Channels computed as `matrix · (columns − offset)`.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MatrixMap {
-    /// Columns, in order.
+    /// Columns that are multiplied by the matrix, in order.
     pub(crate) from: Vec<String>,
     /// Offset subtracted from each column, in the unit of its cells.
     pub(crate) offset: Vec<f64>,

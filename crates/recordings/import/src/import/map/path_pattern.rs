@@ -24,14 +24,14 @@ enum Kind {
     Free,
     /// Leading folders, each with its `/`, as many as the rest of the pattern allows, possibly none.
     Folders,
-    /// Digits.
+    /// One or more digits.
     Digits,
     /// Decimal number with optional sign and exponent.
     Number,
 }
 
 impl PathPattern {
-    /// Parses a pattern. Returns an error message.
+    /// Parses a pattern. Returns an error message for an invalid pattern.
     pub(super) fn parse(text: &str, of: Option<String>) -> Result<PathPattern, String> {
         let mut pieces = Vec::new();
         let mut rest = text;

@@ -9,7 +9,7 @@ use super::check::Check;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::shown;
 
-/// Maximum deviation of a period in radians from whole degrees, in degrees: the rounding error of three decimals.
+/// Maximum deviation of a period in radians from whole degrees, degrees. Rounding to three decimals causes this deviation.
 const ROUNDED_DEG: f64 = 0.03;
 
 /// Full turn in `unit`: 360 for degrees, 2π for radians.
@@ -20,7 +20,7 @@ pub(crate) fn turn_in(unit: SourceUnit) -> f64 {
 /// Channels that together form a rotation.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct RotationMap {
-    /// Rotation vector x, y, z, or quaternion x, y, z, w.
+    /// Channels of a rotation vector x, y, z, or of a quaternion x, y, z, w.
     pub(crate) channels: Vec<String>,
     /// Column of each channel.
     pub(crate) columns: Vec<String>,
@@ -87,7 +87,7 @@ pub(super) enum WrittenRotations {
 }
 
 impl Check<'_> {
-    /// Adds the map's period, in `unit` of the column, to `channel`.
+    /// Adds the period that the map states, in the unit `unit` of the column, to `channel`.
     pub(super) fn periodic(
         &self,
         channel: Channel,

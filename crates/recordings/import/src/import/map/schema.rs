@@ -89,7 +89,7 @@ fn positive() -> i64 {
     1
 }
 
-/// Line, from 1, of the first gap that a draft left.
+/// Line, from 1, of the first gap (`"?"`) that a draft left.
 fn first_open(text: &str) -> Option<u64> {
     (1..)
         .zip(text.lines())

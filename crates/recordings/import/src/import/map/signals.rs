@@ -1,4 +1,4 @@
-//! Source of taxel values, in the schema and checked.
+//! Source of taxel values in a map, as written and as checked.
 
 use serde::Deserialize;
 use taceva_core::{SignalInfo, SourceUnit};
@@ -81,7 +81,7 @@ enum WrittenRest {
 }
 
 impl SignalsMap {
-    /// Columns that the map names.
+    /// Columns of the taxel values; empty for an array.
     pub(crate) fn columns(&self) -> &[String] {
         match &self.from {
             SignalsFrom::Columns(columns) => columns,

@@ -11,7 +11,7 @@ use crate::csv_table::text_form::TextForm;
 use crate::foreign::{TableForm, is_recording};
 use taceva_dataset::DatasetError;
 
-/// Table: only a path, or a section with keys.
+/// Table as written in a map: only a path, or a section with keys.
 #[derive(Deserialize)]
 #[serde(
     untagged,
@@ -246,7 +246,7 @@ impl Check<'_> {
         Ok((file, form))
     }
 
-    /// True if a truncated recording is to be read up to its end.
+    /// True if `cut` of the map asks for the complete messages of a truncated recording; false if truncation is an error.
     fn is_to_cut(
         &self,
         described: &WrittenForm,

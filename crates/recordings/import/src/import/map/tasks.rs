@@ -106,7 +106,7 @@ struct WrittenThresholds {
     r: Vec<String>,
 }
 
-/// Lines of a map on which tasks depend.
+/// Parts of a map that the checks of its tasks need.
 pub(super) struct TaskContext {
     /// Ids and attributes that can be the cluster of a task.
     clusters: Vec<String>,
@@ -114,7 +114,7 @@ pub(super) struct TaskContext {
 }
 
 impl TaskContext {
-    /// Context of a map with these ids, attributes and classes.
+    /// Context of a map with these `ids` and `attributes`; `has_time` is true if the map names a time column.
     pub(super) fn new<'n>(
         ids: &IdMap,
         attributes: impl Iterator<Item = &'n String>,

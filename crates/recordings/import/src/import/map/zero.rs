@@ -15,14 +15,14 @@ pub(crate) struct ZeroMap {
     pub(crate) rows: ZeroRows,
     /// Column whose equal cells form a block with a separate zero; `None` for one block per table.
     pub(crate) block: Option<String>,
-    /// Indices of the channels, from 0.
+    /// Positions of the corrected channels among the channels of the map, from 0.
     pub(crate) channels: Vec<usize>,
 }
 
-/// Rows of a block at zero force.
+/// Rule that selects the rows of a block at zero force.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum ZeroRows {
-    /// First rows of the block, with their number.
+    /// This number of rows at the beginning of the block.
     First(usize),
     /// Rows whose number in a column is below or above a limit.
     Beside {
@@ -33,7 +33,7 @@ pub(crate) enum ZeroRows {
 }
 
 impl ZeroMap {
-    /// Rule in words.
+    /// Describes the zero: the mean of certain rows of each block or table.
     pub(crate) fn rule(&self) -> String {
         let rows = match &self.rows {
             ZeroRows::First(count) => format!("first {count} rows"),
@@ -52,7 +52,7 @@ impl ZeroMap {
         }
     }
 
-    /// Columns that the rule reads.
+    /// Columns that select the zero rows and the blocks.
     pub(crate) fn columns(&self) -> impl Iterator<Item = &String> {
         let column = match &self.rows {
             ZeroRows::First(_) => None,
@@ -76,7 +76,7 @@ pub(crate) struct GravityMap {
 }
 
 impl GravityMap {
-    /// Rule in words.
+    /// Describes the subtracted weight: mass, centre of mass, and columns of the orientation.
     pub(crate) fn rule(&self) -> String {
         format!(
             "weight of {} kg at {:?} mm, turned by {}",

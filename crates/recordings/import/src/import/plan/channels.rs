@@ -1,4 +1,4 @@
-//! Channels in the summary of an import.
+//! Describes the channels in the summary of an import.
 
 use super::reading::Reading;
 use crate::import::summary::Conversion;
@@ -28,7 +28,7 @@ impl Reading<'_> {
         }
     }
 
-    /// Warns of channels with equal numbers because the map names the same column for both.
+    /// Warns of channels with equal numbers if the map reads both from the same column.
     fn warn_of_columns_read_twice(&mut self) {
         let columns = &self.map.columns;
         for (position, map) in columns.iter().enumerate() {

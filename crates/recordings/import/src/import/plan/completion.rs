@@ -89,7 +89,7 @@ impl Reading<'_> {
         })
     }
 
-    /// Frames of each view.
+    /// Sources of the frames of each view.
     fn planned_frames(&mut self) -> Result<Vec<PlannedFrames>, ImportError> {
         let mut planned = Vec::new();
         for view in std::mem::take(&mut self.views) {

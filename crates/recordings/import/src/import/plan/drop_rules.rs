@@ -1,4 +1,4 @@
-//! Checks the rules of [drop] that name rows and pictures.
+//! Checks the rules of `[drop]` that name rows and pictures.
 
 use std::path::{Path, PathBuf};
 
@@ -57,7 +57,7 @@ pub(super) fn check_tables(
 }
 
 impl Reading<'_> {
-    /// Checks that the table has the rows that [drop] names.
+    /// Checks that the table has the rows that `[drop]` names.
     pub(super) fn check_dropped_rows(&self, rows: &MappedTable<'_>) -> Result<(), ImportError> {
         let count = rows.rows();
         let own = self.map.drop.rows.iter().filter(|dropped| {
@@ -77,7 +77,7 @@ impl Reading<'_> {
         Ok(())
     }
 
-    /// Warns of picture names that excluded no row. Marks such as `---` need not occur.
+    /// Warns of picture names in `[drop]` that excluded no row. Marks for a missing picture, such as `---`, cause no warning.
     pub(super) fn warn_of_unused_names(&mut self) {
         let is_used = |rule: &str| {
             let mut names = self.summary.dropped.keys().filter_map(|reason| {

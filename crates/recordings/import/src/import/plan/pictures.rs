@@ -1,4 +1,4 @@
-//! Files that contain the pictures of rows.
+//! Opens the files that contain the pictures of rows, and checks the numbers of pictures.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -14,8 +14,7 @@ use crate::import::source::matching_files;
 use taceva_dataset::internal::shown;
 
 impl Reading<'_> {
-    /// Checks that no two tables use the pictures in `file` by row number, without a column that selects the pictures. Each table would begin with the first
-    /// picture again.
+    /// Checks that no two tables use the pictures in `file` by row number alone. Each table would otherwise begin with the first picture again.
     pub(super) fn check_counted_once(
         &mut self,
         view: usize,
@@ -54,8 +53,8 @@ impl Reading<'_> {
         ))
     }
 
-    /// Stores an error if the numbers of pictures and rows differ and the map names no index. The error is returned after all tables are read, because an error
-    /// in a table is more specific.
+    /// Stores an error if the numbers of pictures and rows differ and the map states no `index`. An error in a table is more specific, so this error
+    /// is returned after all tables are read.
     pub(super) fn note_unequal(
         &mut self,
         view: usize,
@@ -91,7 +90,7 @@ impl Reading<'_> {
         self.unequal = Some(unequal.named_at(Place::file(&self.current)));
     }
 
-    /// Checks that no two tables name the picture at `path` by row number.
+    /// Checks that no two tables name the picture at `path` by the number of a row in each table.
     pub(super) fn check_named_once(
         &mut self,
         view: usize,

@@ -31,19 +31,19 @@ pub(super) struct Reading<'a> {
     /// Pictures of each view.
     pub(super) views: Vec<ViewReading<'a>>,
     pub(super) signals: Option<FoundSignals<'a>>,
-    /// Depth maps of each task that has them.
+    /// Depth maps of each task with depth maps.
     pub(super) maps: Vec<PlannedMaps>,
-    /// Error for different numbers of pictures and rows without an index; `None` if they agree.
+    /// Error if the numbers of pictures and rows differ and the map states no `index`; `None` if the numbers agree.
     pub(super) unequal: Option<ImportError>,
     pub(super) joins: Vec<JoinMatches>,
     /// Coordinate frames of the labels of all tables.
     pub(super) coordinate_frames: CoordinateFrames,
-    /// Unwritten chunks, by file and array.
+    /// Number of unwritten chunks, by file and array.
     pub(super) absent_chunks: BTreeMap<String, u64>,
     pub(super) samples: HashSet<String>,
     /// Images that rows name, including dropped rows.
     pub(super) named: BTreeSet<PathBuf>,
-    /// Base folders of images.
+    /// Folders in which named images were searched.
     pub(super) bases: BTreeSet<PathBuf>,
     pub(super) summary: ImportSummary,
 }
@@ -124,7 +124,7 @@ impl<'a> Reading<'a> {
         Ok(())
     }
 
-    /// Records the zero and the weight that are subtracted from the forces of a table.
+    /// Adds the zero and the weight, subtracted from the forces of a table, to the summary.
     fn note_zeros(&mut self, rows: &MappedTable<'_>) {
         let gravity = self.map.gravity.as_ref();
         self.summary.gravity = gravity.map(GravityMap::rule);

@@ -11,7 +11,7 @@ use crate::import::rows::MappedTable;
 use taceva_dataset::{Row, RowFrame};
 
 impl Reading<'_> {
-    /// Finds the frame of a row in the view at position `view`, and its frame without contact.
+    /// Finds the frame of a row in the view at position `view`, and the frame without contact that the row names.
     pub(super) fn read_frame(
         &mut self,
         rows: &MappedTable<'_>,

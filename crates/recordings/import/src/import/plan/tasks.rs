@@ -11,7 +11,7 @@ use taceva_dataset::{TaskColumn, TaskLabel};
 const COUNTED: usize = 12;
 
 impl Reading<'_> {
-    /// Adds each task, with the number of labels, to the summary.
+    /// Adds a description of each task, with its number of labels, to the summary.
     pub(super) fn describe_tasks(&mut self) {
         let rows = self.table.rows();
         let maps_of = |name: &str| {

@@ -1,4 +1,4 @@
-//! Pictures of one view during reading.
+//! Reads the pictures of one view.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -11,16 +11,16 @@ use crate::import::map::FrameMap;
 use crate::import::references::References;
 use taceva_dataset::internal::shown_path;
 
-/// Pictures of one view during reading.
+/// State of reading the pictures of one view.
 pub(super) struct ViewReading<'a> {
     pub(super) map: &'a FrameMap,
     /// Base folder of the pictures of the table being read.
     pub(super) base: PathBuf,
-    /// Conversion of the depth map in the clips of the table being read; `None` for pictures.
+    /// Conversion of the codes of a depth map to pixels, for the clips of the table being read; `None` for pictures.
     pub(super) depth: Option<DepthPixels>,
     /// Opened files with pictures.
     pub(super) opened: BTreeMap<PathBuf, Arc<dyn Pictures>>,
-    /// Pictures that are used by row number, by their name in the map, each with its table.
+    /// Table that uses pictures by row number, for each file of pictures as named in the map.
     pub(super) counted: BTreeMap<String, PathBuf>,
     pub(super) frames: Vec<PlannedFrame>,
     pub(super) references: References,
@@ -39,7 +39,7 @@ impl<'a> ViewReading<'a> {
         }
     }
 
-    /// Picture at `index` of the only file that contains the pictures of all rows.
+    /// Picture at `index` of the only file that contains the pictures of all rows, for use as the picture without contact.
     ///
     /// # Errors
     /// [`ImportError`] if there are several files, or if the picture does not exist.
@@ -67,7 +67,7 @@ impl<'a> ViewReading<'a> {
         Ok(FrameSource::Within(Arc::clone(first), index))
     }
 
-    /// Base folder of named files: the folder of the table, unless the map states another folder.
+    /// Base folder of picture names: the folder of the map, otherwise `named_by`, otherwise the folder of the table.
     pub(super) fn beside(&self, named_by: Option<&Path>) -> PathBuf {
         match self.map.folder {
             None => named_by.unwrap_or(&self.base).to_owned(),

@@ -10,9 +10,9 @@ use taceva_dataset::internal::shown;
 /// Interpretation of the cells of a column of classes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::import) enum ClassCells {
-    /// Positions in the list, even if a name is an equal number.
+    /// Positions in the list of names, even if a name is an equal number.
     Positions,
-    /// Names in the list.
+    /// Names in the list of names.
     Names,
     /// Positions or names. No name is the position of another name.
     Either,

@@ -1,4 +1,4 @@
-//! Column names in a map.
+//! Interprets column names in a map.
 
 use crate::foreign::ForeignTable;
 use crate::import::map::{FrameNames, ImportMap};
@@ -11,7 +11,7 @@ pub(super) fn indexed(name: &str) -> Option<(&str, Vec<usize>)> {
     Some((base, index.ok()?))
 }
 
-/// Column of a name, without an index.
+/// Column to which the name `name` refers, without the index in its cells.
 pub(super) fn base_of(name: &str) -> &str {
     indexed(name).map_or(name, |(base, _)| base)
 }

@@ -23,11 +23,11 @@ const ENDINGS: [&str; 6] = [
     "reference_frame",
     "_frame",
 ];
-/// Quantities whose frame column may have a different prefix: `wrench_frame` beside `Fx`.
+/// Quantities whose frame column applies to columns with another prefix: `wrench_frame` beside `Fx`.
 const QUANTITIES: [&str; 6] = ["force", "ft", "pose", "position", "torque", "wrench"];
-/// Minimum number of rows at which a column with a different text in each row is taken for names of pictures.
+/// Minimum number of rows of a column of picture names, whose texts all differ. A shorter column may name coordinate frames.
 const NAMES_OF_PICTURES: usize = 8;
-/// Number of frames listed in a message.
+/// Maximum number of coordinate frames that a message lists.
 const LISTED: usize = 8;
 
 /// Coordinate frames of a main table and its joined tables.
@@ -54,7 +54,7 @@ struct FrameColumn {
 }
 
 impl CoordinateFrames {
-    /// Checks that a further main table has the same coordinate frames as the previous tables.
+    /// Adds the coordinate frames of a further main table. Rejects frames that differ from those of the previous tables.
     pub(in crate::import) fn add(&mut self, other: CoordinateFrames) -> Result<(), ImportError> {
         for (column, stated) in other.stated {
             let name = stated.name.clone();
@@ -104,7 +104,7 @@ fn changed(column: &FrameColumn, known: &StatedFrame, found: &StatedFrame) -> Im
     )
 }
 
-/// Names of the columns of `table` that may name frames.
+/// Names of the columns of `table` that may name coordinate frames.
 pub(super) fn columns(table: &ForeignTable) -> Vec<String> {
     let mut names = table.columns();
     names.extend(table.names());
@@ -114,14 +114,14 @@ pub(super) fn columns(table: &ForeignTable) -> Vec<String> {
     names
 }
 
-/// Column name without the ending of a frame column; `None` for another column.
+/// Name of a column of coordinate frames without its ending; `None` for another column.
 fn without_ending(column: &str) -> Option<&str> {
     let lower = column.to_ascii_lowercase();
     let ending = ENDINGS.into_iter().find(|ending| lower.ends_with(ending))?;
     Some(&column[..column.len() - ending.len()])
 }
 
-/// Prefix of the frame column `column`, shared by the columns given in that frame: empty, or `wrench.`.
+/// Beginning of the names of the columns whose frame `column` states: empty, or `wrench.`.
 fn prefix(column: &str) -> &str {
     let mut prefix = without_ending(column).unwrap_or(column);
     for part in ["child_", "header.", "header/", "header_"] {
@@ -144,13 +144,13 @@ fn is_quantity(prefix: &str) -> bool {
         .any(|known| word.eq_ignore_ascii_case(known))
 }
 
-/// Frame name without a leading slash: ROS 1 writes `/tool0` for `tool0`.
+/// Name of a coordinate frame without a leading slash: ROS 1 writes `/tool0` for `tool0`.
 fn comparable(cell: &str) -> &str {
     let cell = cell.trim();
     cell.strip_prefix('/').unwrap_or(cell)
 }
 
-/// Label columns of the join `join`, or of the main table for `None`, with their names in that table.
+/// Names of the columns that contain labels in space: in the table of `join`, or in the main table if `join` is `None`.
 fn labels<'m>(map: &'m ImportMap, main: &ForeignTable, join: Option<&str>) -> Vec<&'m str> {
     let in_space = [
         Unit::Newton,
@@ -194,7 +194,7 @@ fn is_name(map: &ImportMap, column: &str) -> bool {
     known.any(|known| known == column)
 }
 
-/// Columns of `table` that name the frames of `labels`, without counters and picture names.
+/// Columns of `table` that name the coordinate frames of `labels`. Columns of numbers or picture names are excluded.
 fn naming(table: &ForeignTable, labels: &[&str]) -> Result<Vec<String>, ImportError> {
     let mut found = Vec::new();
     if labels.is_empty() {
@@ -269,12 +269,12 @@ pub(super) fn rows_in(
 }
 
 impl Sources<'_> {
-    /// Label columns of the join `join`, or of the main table for `None`, whose numbers depend on a coordinate frame.
+    /// Names of the columns whose labels depend on a coordinate frame: in the table of `join`, or in the main table if `join` is `None`.
     pub(super) fn labels(&self, join: Option<&str>) -> Vec<&str> {
         labels(self.map, &self.main, join)
     }
 
-    /// Coordinate frame of every label column. The frame must be the same for all rows with a number.
+    /// Coordinate frame of every label column. All rows in which the label is a number must have the same frame.
     pub(super) fn coordinate_frames(&self) -> Result<CoordinateFrames, ImportError> {
         let mut frames = CoordinateFrames::default();
         let labels = self.labels(None);
@@ -343,7 +343,7 @@ impl Sources<'_> {
     }
 }
 
-/// Row of a table, with the column that names its coordinate frame.
+/// Row and column of a table whose cell names the coordinate frame of labels.
 struct Given<'a> {
     table: &'a ForeignTable,
     join: Option<&'a str>,
@@ -352,7 +352,7 @@ struct Given<'a> {
 }
 
 impl Given<'_> {
-    /// Records the coordinate frame of the row if a label has a number in the row.
+    /// Records the coordinate frame of the row, if a label in this frame has a value in the row.
     fn take(
         &self,
         frames: &mut CoordinateFrames,

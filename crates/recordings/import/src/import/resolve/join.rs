@@ -30,7 +30,7 @@ use timing::{TimedRow, Timing};
 
 pub(in crate::import) use matches::JoinMatches;
 
-/// Joined table; several tables if the file name depends on the path.
+/// Table of a join, or several tables if the file name of the join depends on the path.
 pub(super) struct Joined<'a> {
     map: &'a JoinMap,
     tables: Vec<Candidates>,
@@ -38,7 +38,7 @@ pub(super) struct Joined<'a> {
     matches: Vec<Match>,
     /// Times of the rows in a join by time.
     timing: Timing,
-    /// Interpolations of columns that are not interpolated linearly.
+    /// Interpolations of columns for which linear interpolation would be wrong.
     interpolations: Vec<Interpolation>,
 }
 
@@ -105,7 +105,7 @@ impl<'a> Joined<'a> {
         &self.map.name
     }
 
-    /// Tables from which rows are taken.
+    /// Tables that the join reads.
     pub(super) fn tables(&self) -> impl Iterator<Item = &ForeignTable> {
         self.tables.iter().map(|candidates| &candidates.table)
     }
@@ -127,12 +127,12 @@ impl<'a> Joined<'a> {
         self.matches[row].at != At::Nowhere
     }
 
-    /// Folder of the table that is matched with `row`.
+    /// Folder of the joined table that is matched with `row` of the main table.
     pub(super) fn folder(&self, row: usize) -> &Path {
         taceva_files::parent_of(self.tables[self.matches[row].table].table.path())
     }
 
-    /// True if every file states that `column` contains integers.
+    /// True if every joined table states that `column` contains integers.
     pub(super) fn holds_integers(&self, column: &str) -> bool {
         let mut tables = self.tables.iter();
         !self.tables.is_empty() && tables.all(|joined| holds_integers(&joined.table, column))
@@ -154,7 +154,7 @@ impl<'a> Joined<'a> {
         columns.iter().map(|(own, _)| own.as_str()).chain(lag)
     }
 
-    /// Cell in `column` of the row that is matched with `row`; empty without a match.
+    /// Cell in `column` of the joined row that is matched with `row` of the main table; empty without a match.
     pub(super) fn cell(&self, row: usize, column: &str) -> Result<String, ImportError> {
         let Match { table, at } = self.matches[row];
         let table = &self.tables[table].table;
@@ -174,7 +174,7 @@ impl<'a> Joined<'a> {
         }
     }
 
-    /// Rows of joined tables from which the cells of `row` are taken.
+    /// Rows of joined tables that supply the cells of `row` of the main table.
     pub(super) fn rows_of(&self, row: usize) -> impl Iterator<Item = TakenRow<'_>> {
         let Match { table: at, at: of } = self.matches[row];
         let candidates = &self.tables[at];
@@ -191,19 +191,19 @@ impl<'a> Joined<'a> {
         })
     }
 
-    /// Example of a cell of the joined tables whose decimal point may be a digit separator, with the number of these cells.
+    /// Example of a cell of a joined table whose decimal point may be a digit separator, and the number of such cells.
     pub(super) fn grouped_digits(&self, column: &str) -> Option<(String, u64)> {
         let mut tables = self.tables.iter();
         tables.find_map(|candidates| candidates.table.grouped_digits(column))
     }
 
-    /// Checks that the map agrees with the files about `column`.
+    /// Checks that `reading`, the interpretation by the map, agrees with the statements of the files about `column`.
     pub(super) fn check(&self, column: &str, reading: Reading<'_>) -> Result<(), ImportError> {
         let mut tables = self.tables.iter();
         tables.try_for_each(|candidates| unit_statement::check(&candidates.table, column, reading))
     }
 
-    /// Counts the unwritten chunks of the arrays read.
+    /// Adds the numbers of unwritten chunks of the arrays that the join reads to `into`.
     pub(super) fn count_absent_chunks(
         &self,
         folder: &SourceFolder,
@@ -268,7 +268,7 @@ impl<'a> Joined<'a> {
         }
     }
 
-    /// Offset of the clock of the joined table at `row`, ms; positive if that clock shows a later time.
+    /// Offset of the clock of the joined table at `row` of the main table, ms; positive if the joined clock shows a later time.
     fn lag_ms(&self, sources: &Sources<'_>, row: usize, lag: &Lag) -> Result<f64, ImportError> {
         match lag {
             Lag::Fixed(lag) => Ok(*lag),
@@ -371,7 +371,7 @@ impl<'a> Joined<'a> {
     }
 }
 
-/// Columns of the join `join` among `names`, the names that a map mentions.
+/// Columns of the join `join` among `names`, which are column names in a map.
 fn own_columns<'n>(names: &'n [String], join: &str) -> Vec<&'n str> {
     let own = names.iter().filter_map(|name| {
         let (prefix, column) = name.split_once('.')?;

@@ -1,4 +1,4 @@
-//! Channels computed as a matrix times columns.
+//! Computes channels as a matrix times columns.
 
 use super::table::ResolvedTable;
 use crate::csv_table::CsvTable;
@@ -6,7 +6,7 @@ use crate::error::ImportError;
 use crate::import::map::{MatrixMap, MatrixRows};
 use crate::source_folder::SourceFolder;
 
-/// Adds the result columns of `map` to `table`. A product is empty if one of its factors is empty.
+/// Adds the products of the matrix `map` to `table`, as columns. A product is empty if the cell of one of its columns is empty.
 pub(super) fn apply(
     map: &MatrixMap,
     folder: &SourceFolder,

@@ -11,8 +11,8 @@ pub(in crate::import) struct NamedBy {
     views: Vec<ViewNamedBy>,
 }
 
-/// Folders, for each row, of the joined table that names the picture, and of the joined table that names the reference. `None` if the main table
-/// names the pictures or the references.
+/// For each row, the folder of the joined table that names the picture, and of the one that names the picture without contact. `None` if the main
+/// table names them.
 #[derive(Debug)]
 struct ViewNamedBy {
     frames: Option<Vec<PathBuf>>,
@@ -44,7 +44,7 @@ impl NamedBy {
         Some(self.views.get(view)?.frames.as_ref()?.get(row)?)
     }
 
-    /// Folder of the joined table that names the reference of `row` in the view at position `view`; `None` if the main table names the reference.
+    /// Folder of the joined table that names the picture without contact of `row` in the view at position `view`; `None` if the main table names it.
     pub(in crate::import) fn reference(&self, view: usize, row: usize) -> Option<&Path> {
         Some(self.views.get(view)?.references.as_ref()?.get(row)?)
     }

@@ -1,12 +1,12 @@
-//! Columns of taxels that a map names by position.
+//! Finds the names of taxel columns that a map gives by position.
 
 use crate::error::{ImportError, table_error};
 use crate::foreign::ForeignTable;
 use crate::import::map::{ImportMap, SignalsFrom};
 use taceva_dataset::internal::listed;
 
-/// `map` with names of taxel columns, if it has positions instead: `1..64` of a text table without these names. Positions count from 0, as in a table
-/// without a header. `None` for names.
+/// Copy of `map` that names taxel columns which `map` gives by position, from 0; `None` if `map` gives names. For example, `1..64` are positions if
+/// the table lacks these names.
 ///
 /// # Errors
 /// A table with too few columns.

@@ -1,10 +1,10 @@
-//! Selects among equivalent rotations, so that consecutive rows are close.
+//! Replaces rotations by equivalent rotations, so that consecutive rows are close.
 
 use super::table::ResolvedTable;
 use crate::error::ImportError;
 use crate::import::map::RotationMap;
 
-/// Minimum decrease of the distance to the previous row for which the equivalent rotation is preferred, in the unit of the cells.
+/// Minimum decrease of the distance to the previous row at which the equivalent rotation replaces the rotation, in the unit of the cells.
 const LEAST_GAIN: f64 = 1e-9;
 
 /// Replaces each rotation by the equivalent rotation nearest to the previous row. Near half a turn, robots alternate between a rotation vector and

@@ -1,4 +1,4 @@
-//! Taxel values in the columns of a table.
+//! Reads taxel values from the columns of a table.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ use taceva_core::single;
 /// Maximum number of rows, equally spaced, that are searched for codes that mean "nothing measured".
 const SAMPLED: usize = 1000;
 
-/// Values of every row, grouped by taxel, in the stored unit. A cell without a number becomes NaN, which is an error if the row is kept.
+/// Reads the values of every row, grouped by taxel, in the stored unit. A cell without a number becomes NaN, which is an error if the row is kept.
 pub(super) fn numbers(
     sources: &Sources<'_>,
     map: &SignalsMap,
@@ -163,7 +163,7 @@ fn nested(cell: &str) -> Result<Vec<u64>, String> {
         .ok_or_else(|| "an opening bracket has no closing bracket".to_owned())
 }
 
-/// Numbers in one cell, ignoring its list structure.
+/// Texts of the numbers in one cell, without the structure of their lists.
 fn packed(cell: &str) -> impl Iterator<Item = &str> {
     let parts = cell.split(|letter: char| letter.is_whitespace() || "[](),;".contains(letter));
     parts.filter(|part| !part.is_empty())
@@ -179,7 +179,7 @@ fn read(cell: &str, map: &SignalsMap) -> f32 {
         .unwrap_or(f32::NAN)
 }
 
-/// Numbers of a row, reordered by taxel and then by channel.
+/// Numbers of a row in the stored order: by taxel, then by channel.
 pub(in crate::import) fn place_first<'v>(
     map: &SignalsMap,
     values: &'v [f32],

@@ -12,14 +12,14 @@ use taceva_dataset::internal::shown;
 /// Cells of the columns that a map names.
 pub(in crate::import) struct ResolvedTable {
     path: PathBuf,
-    /// Path relative to the lab's folder.
+    /// Path of the main table relative to the lab's folder.
     relative: String,
     names: Vec<String>,
-    /// Cells by column, then by row.
+    /// Cells of the table: for each column, the cell of each row.
     cells: Vec<Vec<String>>,
     /// Place of each row, for messages.
     places: Vec<Place>,
-    /// For each row, the first join without a match. The row is left out. `None` if all joins match.
+    /// For each row, the first join without a match, which leaves the row out; `None` if all joins match.
     unmatched: Vec<Option<String>>,
 }
 
@@ -45,7 +45,7 @@ impl ResolvedTable {
         }
     }
 
-    /// Path of the file.
+    /// Path of the main table.
     pub(in crate::import) fn path(&self) -> &Path {
         &self.path
     }
@@ -88,12 +88,12 @@ impl ResolvedTable {
         self.unmatched[row].as_deref()
     }
 
-    /// Position of the column called `name`. Every column of the map exists; `None` for others.
+    /// Position of the column called `name`; `None` for a name that the map does not mention.
     pub(in crate::import) fn find(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|known| known == name)
     }
 
-    /// Number in a cell.
+    /// Number in the cell at `row` and `column`; `None` for an empty cell.
     pub(in crate::import) fn number(
         &self,
         row: usize,

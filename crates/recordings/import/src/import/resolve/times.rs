@@ -32,7 +32,7 @@ pub(super) fn check(
 pub(super) struct TextTimes {
     /// Seconds as decimal text; empty for an empty cell.
     pub(super) seconds: Vec<String>,
-    /// True if a text with a date has no time zone and the map states none.
+    /// True if a text with a date states no time zone, and the map states none either.
     has_no_zone: bool,
     /// Number of midnights between the first and the last time of day.
     midnights: i64,
@@ -94,7 +94,7 @@ impl TextTimes {
         Ok(Some(times))
     }
 
-    /// Warnings about the times of `column`.
+    /// Warnings about the times of `column`: a missing time zone, or midnights.
     pub(super) fn warnings(&self, column: &str, is_unix: bool) -> Vec<ImportWarning> {
         let mut warnings = Vec::new();
         if self.has_no_zone && is_unix {

@@ -18,12 +18,12 @@ pub(super) struct Reading<'a> {
     pub(super) of: Of,
 }
 
-/// Kind of numbers in a column.
+/// Kind of the numbers in a column.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Of {
     /// Labels, for which the map may set a scale.
     Labels,
-    /// Times and taxel values, without a scale.
+    /// Times or taxel values, for which the map may set no scale.
     Others,
 }
 
@@ -52,7 +52,8 @@ pub(super) fn check(
     }
 }
 
-/// Contradiction between the map and the first of `names` that contains a unit of the quantity. The name of an element precedes the name of its column.
+/// Problem of the first of `names` that states a unit of the quantity of `unit`; `None` if the units agree, or no name states one. The name of an
+/// element precedes the name of its column.
 pub(in crate::import) fn problem_of_names<'n>(
     names: impl IntoIterator<Item = &'n str>,
     unit: &SourceUnit,
@@ -71,8 +72,8 @@ pub(in crate::import) fn problem_of_names<'n>(
     None
 }
 
-/// Stated unit, if it has the same quantity as `unit` but a different factor. Other quantities are ignored, because an array of forces and torques has one
-/// attribute for both.
+/// Symbol of the stated unit, if it has the same quantity as `unit` but a different factor. Other quantities are ignored: an array of forces and
+/// torques has one attribute for both.
 fn contradicted(stated: &str, unit: &SourceUnit) -> Option<&'static str> {
     let own = SourceUnit::parse(stated.trim()).ok()?;
     let is_other =
@@ -146,7 +147,7 @@ impl Sources<'_> {
         Ok(())
     }
 
-    /// Checks a number in a path against its name and the letters after it: `Fz{fz:number}mN`.
+    /// Checks the unit of a number in a path against the name of the number and the letters after it: `Fz{fz:number}mN`.
     fn check_part(&self, part: &str, reading: Reading<'_>) -> Result<(), ImportError> {
         let pattern = self.map.path.as_ref();
         let behind = pattern.and_then(|pattern| pattern.letters_behind(part));

@@ -8,7 +8,7 @@ use crate::import::map::{ClassMap, ColumnMap};
 use crate::import::resolve::ClassCells;
 
 impl MappedTable<'_> {
-    /// Labels of a row before the zero is subtracted.
+    /// Numbers of a row, one per channel, without the weight of a tool and before the zero is subtracted.
     pub(super) fn measured(&self, row: usize) -> Result<Vec<Option<f64>>, ImportError> {
         let mut labels = self.converted(row)?;
         if let Some(gravity) = &self.map.gravity {
@@ -23,7 +23,7 @@ impl MappedTable<'_> {
         Ok(labels)
     }
 
-    /// Numbers of a row in the stored units, with the signs of the table.
+    /// Numbers of a row, one per channel, in the stored units, with the signs of the table.
     fn converted(&self, row: usize) -> Result<Vec<Option<f64>>, ImportError> {
         self.truth
             .iter()
@@ -96,7 +96,7 @@ impl MappedTable<'_> {
         })
     }
 
-    /// Value of a cell, parsed by `from`. `None` without the column or without a text; an error for a text that `from` does not accept.
+    /// Value of a cell, parsed by `from`; `None` if the map names no column or the cell is empty. A text that `from` does not accept is an error.
     fn value<T>(
         &self,
         row: usize,
@@ -115,7 +115,7 @@ impl MappedTable<'_> {
         }
     }
 
-    /// Attributes of a row, followed by its classes.
+    /// Attributes of a row, then its classes, as texts.
     pub(super) fn texts(&self, row: usize) -> Result<Vec<Option<String>>, ImportError> {
         let text = |column: &usize| {
             let cell = self.table.cell(row, *column);

@@ -1,4 +1,4 @@
-//! Contact point of a row.
+//! Computes the contact point of a row.
 
 use super::MappedTable;
 

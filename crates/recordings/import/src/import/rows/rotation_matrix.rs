@@ -1,8 +1,8 @@
-//! Quaternions of rotation matrices.
+//! Converts rotation matrices to quaternions.
 
 use taceva_dataset::TaskLabel;
 
-/// Quaternion x, y, z, w, with w of 0 or more, of the matrix with these numbers row by row; `None` if the matrix is not a rotation.
+/// Quaternion x, y, z, w of `matrix`, which is given row by row. `w` is at least 0. `None` if the matrix is not a rotation.
 ///
 /// The greatest of the four parts is computed first (Shepperd 1978), so that no division by a small number occurs.
 pub(super) fn quaternion(matrix: [f64; 9]) -> Option<[f64; 4]> {

@@ -7,7 +7,7 @@ use taceva_dataset::internal::listed;
 use taceva_dataset::{Place, Row, Task, TaskKind, TaskLabel};
 
 impl MappedTable<'_> {
-    /// Labels of all tasks in row `row`. `read` has the ids and attributes of this row.
+    /// Labels of all tasks in row `row`. `read` already has the ids and attributes of this row.
     pub(super) fn labels_of_tasks(
         &self,
         row: usize,
@@ -41,7 +41,8 @@ impl MappedTable<'_> {
         labels.collect()
     }
 
-    /// Class in a cell that contains a name or a position. If one of two classes is positive, the cell may also contain `true` or `false`.
+    /// Label in a cell that contains the name or the position of a class. If one of two classes is positive, the cell may also contain `true` or
+    /// `false`.
     fn class_of_task(
         &self,
         row: usize,
@@ -67,14 +68,14 @@ impl MappedTable<'_> {
         }
     }
 
-    /// Name of the file with the depth map of a row for the task at position `task` of the map, with its place; `None` for an empty cell.
+    /// Name of the file with the depth map of a row, for the task at position `task` of the map, and the place of the name; `None` for an empty cell.
     pub(in crate::import) fn map_file(&self, task: usize, row: usize) -> Option<(&str, Place)> {
         let column = *self.tasks[task].first()?;
         let name = self.table.cell(row, column);
         (!name.is_empty()).then(|| (name, self.table.place(row, column)))
     }
 
-    /// Pose in 7 cells, or in 12 cells with a rotation matrix, or place in 3 cells; `None` if all cells are empty.
+    /// Pose or place of a row: 7 cells for a pose, 12 for a pose with a rotation matrix, 3 for a place. `None` if all cells are empty.
     fn numbers(
         &self,
         row: usize,

@@ -16,11 +16,11 @@ pub(in crate::import) struct MappedView {
     cells: FrameCells,
     /// Column that names the frame without contact of each row.
     reference: Option<usize>,
-    /// Column of the original picture.
+    /// Column with the path of the original picture.
     pub(super) origin: Option<usize>,
     /// Pictures inside the file of the table; `None` for separate files.
     pub(in crate::import) pictures: Option<Arc<dyn Pictures>>,
-    /// Conversion of the depth map in the clips; `None` for pictures.
+    /// Conversion of the codes of a depth map in the clips to pixels; `None` for pictures.
     pub(in crate::import) depth: Option<DepthPixels>,
 }
 
@@ -104,7 +104,7 @@ impl MappedTable<'_> {
         Ok((name, self.table.place(row, column)))
     }
 
-    /// Name of the frame without contact of a row, with its place; `None` if the map names no column for it.
+    /// Name of the frame without contact of a row, with its place; `None` if the map names no column of such frames.
     pub(in crate::import) fn reference_name(
         &self,
         view: usize,
@@ -120,7 +120,7 @@ impl MappedTable<'_> {
         (!cell.is_empty()).then(|| cell.to_owned())
     }
 
-    /// Rules that exclude the row because of a picture in a clip or an array, such as `clip.mp4#12`.
+    /// Rules of `[drop]` that exclude the row because of a picture in a clip or an array, such as `clip.mp4#12`.
     pub(super) fn names_within_left_out(&self, row: usize) -> Vec<String> {
         let rules = &self.map.drop.frames_named;
         if !rules.iter().any(|rule| rule.contains('#')) {
@@ -139,7 +139,7 @@ impl MappedTable<'_> {
             .collect()
     }
 
-    /// Rules that exclude the row because of the names of its pictures.
+    /// Rules of `[drop]` that exclude the row because of the names of its pictures.
     pub(super) fn names_left_out(&self, row: usize) -> Vec<String> {
         let rules = &self.map.drop.frames_named;
         let views = self.map.frames.iter().zip(&self.views);
@@ -165,7 +165,7 @@ impl MappedTable<'_> {
         reasons.collect()
     }
 
-    /// Folder of the pictures that the main table names, relative to the lab's folder.
+    /// Folder of the pictures of `frame`, if the main table names them, relative to the lab's folder.
     fn base_of<'f>(&'f self, frame: &'f FrameMap) -> &'f Path {
         match (&frame.folder, &self.map.form) {
             (Some(folder), _) => Path::new(folder),

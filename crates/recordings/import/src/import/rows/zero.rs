@@ -10,10 +10,10 @@ use taceva_dataset::internal::shown;
 
 /// Standard acceleration of gravity, m/s².
 const FREE_FALL: f64 = 9.806_65;
-/// Limit of the spread of zero rows, as a fraction of the spread of all rows. The import warns above the limit.
+/// Maximum spread of the zero rows, as a fraction of the spread of all rows of a block. The import warns of a greater spread.
 const SPREAD: f64 = 0.2;
 
-/// Zero of each block of rows.
+/// Zeros that are subtracted from the channels of each block of rows.
 pub(in crate::import) struct Zeros {
     /// Index of the block of each row.
     blocks: Vec<usize>,
@@ -31,11 +31,11 @@ impl Zeros {
     }
 }
 
-/// Kept rows that share a zero. The second value is true for rows at zero force.
+/// Kept rows that share a zero, each with true for a row at zero force.
 type Block = Vec<(usize, bool)>;
 
 impl MappedTable<'_> {
-    /// Labels of a row as stored in the dataset.
+    /// Numbers of a row, one per channel, as stored in the dataset.
     pub(super) fn truth(&self, row: usize) -> Result<Vec<Option<f64>>, ImportError> {
         let mut labels = self.measured(row)?;
         if let Some((map, zeros)) = self.map.zero.as_ref().zip(self.zeros.as_ref()) {

@@ -75,7 +75,7 @@ impl ArraySignals {
         }
     }
 
-    /// Checks that the array has `rows` rows, as many as the table.
+    /// Checks that the array has `rows` rows, the number of rows of all tables.
     pub(super) fn check_rows(&self, rows: u64) -> Result<(), ImportError> {
         match rows == self.rows {
             true => Ok(()),
@@ -87,7 +87,7 @@ impl ArraySignals {
         }
     }
 
-    /// Counts the unwritten chunks of the array.
+    /// Adds the number of unwritten chunks of the array to `into`.
     pub(super) fn count_absent_chunks(
         &self,
         folder: &SourceFolder,

@@ -27,7 +27,7 @@ fn singles(shape: &str, numbers: &[f32]) -> Vec<u8> {
     npy("<f4", shape, &bytes)
 }
 
-/// Folder with the table, and an array of three maps of 1 x 2 pixels.
+/// Folder with the table, an array of three maps of 1 × 2 pixels, and two files of one map each.
 fn folder_of_maps() -> tempfile::TempDir {
     let lab = lab(&[("labels.csv", TABLE)]);
     let numbers = [0.0, 250.0, f32::NAN, f32::NAN, 1000.0, -2.0];
@@ -45,7 +45,7 @@ fn dataset_of(lab: &Path, tasks: &str, target: &Path) -> Dataset {
     imported_to(lab, &format!("{COLUMNS}{tasks}"), target)
 }
 
-/// Depths of a row as text, with `-` for an invalid pixel; `None` without a map.
+/// Depths of the map of a row, mm, as texts, with `-` for an invalid pixel; `None` without a map.
 fn depths(dataset: &Dataset, row: usize) -> Option<Vec<String>> {
     let map = dataset.depth_map("shape", row).expect("whole")?;
     let word = |depth: &f64| match depth.is_nan() {

@@ -1,4 +1,4 @@
-//! Taxels in columns with an axis and a number in brackets: `X[0]`, `Y[0]`, `Z[0]`, `X[1]`, and so on.
+//! Finds taxels in columns with an axis and a number in brackets: `X[0]`, `Y[0]`, `Z[0]`, `X[1]`, and so on.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// Number of axes of each taxel.
 pub(super) const COUNT: usize = AXES.len();
 
-/// Text before the axis, and the place of the column in its series: `1-2-NxN-` and 13 of `1-2-NxN-Y[4]`.
+/// Text before the axis, and the column number within the taxels: `1-2-NxN-` and 13 for `1-2-NxN-Y[4]`, that is 3 · 4 + 1.
 fn place(name: &str) -> Option<(&str, usize)> {
     let (before, number) = name.strip_suffix(']')?.rsplit_once('[')?;
     let (stem, axis) = before.split_at_checked(before.len().checked_sub(1)?)?;
@@ -18,7 +18,7 @@ fn place(name: &str) -> Option<(&str, usize)> {
     Some((stem, number.checked_mul(COUNT)? + axis))
 }
 
-/// Complete series among columns called `names`, each as the positions of its columns in order. A complete series has every axis for every number.
+/// Complete series among `names`, each as the positions of its columns in order. A complete series has every axis for every taxel number.
 pub(super) fn series<'n>(names: impl Iterator<Item = &'n str>) -> Vec<Vec<usize>> {
     let mut found: BTreeMap<&str, Vec<(usize, usize)>> = BTreeMap::new();
     for (position, name) in names.enumerate() {

@@ -1,4 +1,4 @@
-//! Tasks of depth maps: where the maps are, and the meaning of their numbers.
+//! Tasks of depth maps: location of the maps, and meaning of their numbers.
 
 use serde::Deserialize;
 use toml::Spanned;

@@ -1,4 +1,4 @@
-//! Names of classes, and limits of pose changes, checked.
+//! Checks the names of classes, and the limits of pose changes.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ use crate::import::map::ClassMap;
 use taceva_dataset::TaskKind;
 use taceva_dataset::internal::{listed, shown};
 
-/// Maximum number of classes of a task, and maximum bytes of a name, because a header contains all of them.
+/// Maximum number of classes of a task, and maximum length of a class name, bytes. The header contains all names.
 const NAMES: usize = 4_096;
 const NAME_BYTES: usize = 128;
 
@@ -22,7 +22,7 @@ pub(crate) fn no_name(wrong: &str, names: &[String]) -> String {
     format!("no name of the task{guess} {}", listed(names))
 }
 
-/// Problem with the names of a task.
+/// Problem with the class names of a task; `None` if the names are usable.
 pub(super) fn problem_of_names(class: &ClassMap, kind: TaskKind) -> Option<String> {
     let names = &class.names;
     let mut seen = BTreeSet::new();

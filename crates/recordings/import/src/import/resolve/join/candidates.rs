@@ -13,10 +13,10 @@ use crate::import::resolve::times::TextTimes;
 use crate::import::resolve::unit_statement::{self, Of, Reading};
 use taceva_dataset::internal::shown;
 
-/// Minimum number of steps for a usual step.
+/// Minimum number of time steps from which a usual step is computed.
 const LEAST_STEPS: usize = 10;
 
-/// Table with its candidate rows.
+/// Joined table with its candidate rows.
 pub(super) struct Candidates {
     pub(super) table: ForeignTable,
     pub(super) rows: Vec<usize>,
@@ -26,9 +26,9 @@ pub(super) struct Candidates {
     pub(super) by_key: HashMap<Vec<String>, Vec<usize>>,
     /// For a join by time: time, s, and row, in order of time.
     pub(super) by_time: Vec<(f64, usize)>,
-    /// For a join by time: number of rows with a time. Of rows with equal times, `by_time` contains only the first.
+    /// For a join by time: number of rows with a time. `by_time` contains only the first of several rows with equal times.
     pub(super) timed: usize,
-    /// For a join by time: usual step between rows, s.
+    /// For a join by time: usual time step between rows, s, which is the third quartile of the steps.
     pub(super) usual_s: Option<f64>,
     /// For a join with `until`: number and row, in order of the number.
     pub(super) until: Vec<(u64, usize)>,
@@ -37,7 +37,7 @@ pub(super) struct Candidates {
 /// Row of a joined table that supplies cells of a main row.
 pub(crate) struct TakenRow<'a> {
     pub(super) candidates: &'a Candidates,
-    /// Number of the joined table.
+    /// Index of the joined table among the tables of the join.
     pub(crate) at: usize,
     pub(crate) row: usize,
 }
@@ -175,7 +175,7 @@ impl Candidates {
     }
 }
 
-/// Usual step: the third quartile of `steps_s`. `None` for few steps.
+/// Usual step, s: the third quartile of `steps_s`; `None` for fewer than 10 steps.
 fn usual_step_s(mut steps_s: Vec<f64>) -> Option<f64> {
     steps_s.sort_by(f64::total_cmp);
     let usual_s = steps_s.get(steps_s.len() * 3 / 4).copied();

@@ -20,7 +20,7 @@ enum Way {
     /// Angle without a declared period.
     Angle {
         channel: String,
-        /// Half a turn, in the unit of the cells.
+        /// Half a turn, in the unit of the cells; the maximum difference between neighbours.
         half_turn: f64,
         /// Whole turn, in the unit of the map.
         turn: f64,
@@ -41,7 +41,7 @@ enum Way {
 const OPPOSITE_DEG: f64 = 179.0;
 
 impl Interpolation {
-    /// Interpolations for the columns of the join `name`.
+    /// Interpolations of the columns that the join `name` reads.
     pub(super) fn of_join(map: &ImportMap, name: &str) -> Vec<Interpolation> {
         let own_column = |from: &str| {
             let (join, column) = from.split_once('.')?;
@@ -163,7 +163,7 @@ impl Gap<'_> {
         Ok(before?.zip(after?).map(|(before, after)| [before, after]))
     }
 
-    /// Component `at` of the interpolated rotation.
+    /// Component `at`, from 0, of the interpolated rotation, as a cell.
     fn rotated(
         &self,
         map: &RotationMap,
@@ -201,7 +201,7 @@ impl Gap<'_> {
     }
 }
 
-/// Angle at `share` of the shorter path from `before` to `after`, in the same range.
+/// Angle at the fraction `share` of the shorter path from `before` to `after`, in the range of both: −`period`/2 to `period`/2, or 0 to `period`.
 fn wrapped(before: f64, after: f64, share: f64, period: f64) -> f64 {
     let turns = ((after - before) / period).round();
     let angle = before + share * (after - before - turns * period);

@@ -1,4 +1,4 @@
-//! Join matches, with the rows of joined tables that no main table uses.
+//! Counts the matches of joins, and the rows of joined tables that no main table uses.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -46,8 +46,8 @@ impl JoinMatches {
         }
     }
 
-    /// Checks that no table joined by row number is used by two main tables, because each would begin with its first row. `main` is the table of `other`, and
-    /// is among `tables`. `are_files` is true if each main table is a file that forms one row.
+    /// Checks that no two main tables use the same table, joined by row number. Both would begin with its first row. `main`, one of `tables` main
+    /// tables, has the matches `other`. `are_files` is true if each main table is a file that forms one row.
     pub(in crate::import) fn check_counted_once(
         &self,
         other: &JoinMatches,
@@ -93,7 +93,7 @@ impl JoinMatches {
             .warnings(&self.name, self.matched, 2 * used < candidates)
     }
 
-    /// Time spans of both tables in words, if a join by time has no match at all; otherwise `None`.
+    /// Time spans of both tables in words, if no row of a join by time has a match; otherwise `None`.
     pub(in crate::import) fn apart(&self) -> Option<String> {
         let spans = self.timing.spans(&self.name);
         spans.filter(|_| self.matched == 0)

@@ -18,8 +18,8 @@ pub(super) enum At {
     Between([usize; 2], f64),
 }
 
-/// Normalised key: 3, 3.0 and `np.int64(3)` are equal, and so are equal texts. An empty key matches nothing. Integers are compared exactly
-/// at any length. A number with an exponent may be an id and counts as text.
+/// Normalises a key of a join: 3, 3.0 and `np.int64(3)` become equal. Integers are compared exactly at any length. A number with an exponent may be
+/// an id and counts as text.
 pub(super) fn comparable(cell: &str) -> String {
     let cell = cell_list::plain(cell.trim());
     let whole = cell.strip_suffix(".0").unwrap_or(cell);
@@ -42,7 +42,7 @@ pub(super) fn seconds(
         .map_err(|problem| table_error!(place(), "`{}`: {problem}", shown(cell)))
 }
 
-/// Match for `instant` among the sorted `times`, with the time difference, s.
+/// Match for the time `instant`, s, among the sorted `times`, and its time difference, s; `None` if no match is within the tolerance.
 pub(super) fn about(times: &[(f64, usize)], instant: f64, join: &TimeJoin) -> Option<(At, f64)> {
     let behind = times.partition_point(|(time, _)| *time <= instant);
     let before = behind.checked_sub(1).map(|at| times[at]);

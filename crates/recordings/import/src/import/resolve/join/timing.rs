@@ -1,22 +1,22 @@
-//! Times of a join by time: spans, time differences, and signs of a wrong lag, unit, order or tolerance.
+//! Collects times of a join by time: spans, time differences, and signs of a wrong lag, unit, order or tolerance.
 
 use super::candidates::Candidates;
 use crate::import::map::Pick;
 use crate::import::warning::ImportWarning;
 
-/// Minimum number of rows for a statement about a join.
+/// Minimum number of rows for a warning about a join.
 const LEAST: u64 = 10;
-/// Limits above which a match is across a pause: a multiple of the usual step, and a time difference, s.
+/// A time difference above `FAR` times the usual step and above `FAR_S`, s, is a match across a pause.
 const FAR: f64 = 3.0;
 const FAR_S: f64 = 0.05;
-/// Maximum lag that a delay of pictures can explain, s.
+/// Maximum absolute lag that a delay of the pictures can explain, s.
 const DELAY_S: f64 = 0.1;
-/// Maximum difference of equal times, s. For times of a regular clock, a fraction of its step.
+/// Maximum difference of times that count as equal, s. In a regular clock, `REGULAR` is this difference as a fraction of the step.
 const EQUAL_S: f64 = 1e-6;
 const REGULAR: f64 = 0.01;
 /// Maximum relative difference between a ratio of times and the factor of a unit.
 const FACTOR: f64 = 0.01;
-/// Inverse of the maximum fraction of rows that are out of order. A table with a larger fraction has a different order.
+/// Inverse of the maximum fraction of rows out of order. A larger fraction means a table in another order.
 const SWAPPED: u64 = 10;
 
 /// Row of a main table with its time.
@@ -37,11 +37,11 @@ struct Span {
     last_s: f64,
 }
 
-/// Times of all rows that a join matches.
+/// Times of all rows that a join compares, with the differences to the matched rows.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Timing {
     rows: u64,
-    /// Time span of the rows, on the clock of the joined table.
+    /// First and last time of the rows of the main tables, s, on the clock of the joined table.
     own: Option<Span>,
     joined: Option<Span>,
     /// Maximum time difference of a match, s.
@@ -58,7 +58,7 @@ pub(super) struct Timing {
     first_swapped: Option<usize>,
 }
 
-/// Number of rows with a long lag, and numbers of these rows with an equal time in the joined table: without the lag, with the lag, and after another
+/// Rows whose lag is too long for a delay of pictures. Counts of these rows that find an equal joined time without the lag, with it, or after another
 /// shift.
 #[derive(Clone, Debug, Default)]
 struct Lagged {
@@ -131,13 +131,13 @@ impl Timing {
         self.lagged.by_chance += other.lagged.by_chance;
     }
 
-    /// First row whose time is out of order, with the number of these rows; `None` if there are none or too many.
+    /// First row whose time is out of order, and the number of such rows; `None` if no rows or too many rows are out of order.
     pub(super) fn swapped(&self) -> Option<(usize, u64)> {
         let first = self.first_swapped?;
         (self.swapped * SWAPPED <= self.rows).then_some((first, self.swapped))
     }
 
-    /// Time spans of both tables in words, with the factor of a wrong unit.
+    /// Time spans of the main tables and of the joined table `join` in words, with a hint if their units seem to differ.
     pub(super) fn spans(&self, join: &str) -> Option<String> {
         let (own, joined) = self.own.zip(self.joined)?;
         let is_near = |ratio: f64| (ratio - 1.0).abs() < FACTOR;
@@ -160,8 +160,8 @@ impl Timing {
         ))
     }
 
-    /// Warnings about the lag, the tolerance and the matches of `join`. `matched` rows have a match. Few matches are a fault only if `most_unused`, that is,
-    /// most joined rows are unused, because single presses match few rows of a stream.
+    /// Warnings about the lag, the tolerance and the matches of `join`; `matched` is the number of rows with a match. Few matches cause a warning
+    /// only if `most_unused`, that is, if most joined rows are unused. Single presses match few rows of a stream.
     pub(super) fn warnings(
         &self,
         join: &str,
@@ -219,7 +219,7 @@ impl Lagged {
         self.by_chance += u64::from(steps.any(|step| has(row.time_s + step * usual_s, near_s)));
     }
 
-    /// True if nearly all rows have a joined row at their own time. At most half of the rows may have a joined row after a shift by the lag or by
+    /// True if the lag is probably wrong. Nearly all rows find an equal joined time without it; at most half find one with it, or after a shift by
     /// whole steps.
     fn is_of_one_clock(&self) -> bool {
         self.rows >= LEAST
