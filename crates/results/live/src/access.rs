@@ -13,7 +13,7 @@ pub(crate) struct Access {
 }
 
 impl Access {
-    /// Creates the requirements for a page on `port` of this machine.
+    /// Creates the access control of a page on `port` of this machine.
     pub(crate) fn new(port: u16, token: Token) -> Access {
         let hosts = ["127.0.0.1", "localhost"].map(|host| format!("{host}:{port}"));
         Access { hosts, token }

@@ -1,4 +1,4 @@
-//! State that the program with the devices shares with the page: newest values without history.
+//! State that the devices' program shares with the page: the newest values, without history.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
@@ -34,7 +34,7 @@ pub(crate) struct Shared {
 struct Inside {
     state: State,
     places: Vec<Place>,
-    /// Version of the places, incremented at each change.
+    /// Version of the list of press places, incremented at each change.
     places_version: u64,
     questions: u64,
     /// Arrival times of recent frames, for their rate.

@@ -9,7 +9,7 @@ use crate::live::Live;
 /// Interval of checks for a cancelled run.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// Asks questions on the page only, not at the terminal.
+/// Operator interface that asks questions on the page only, not at the terminal.
 ///
 /// ```
 /// use taceva_live::{Live, PageOperator};

@@ -20,7 +20,7 @@ pub struct Overlay {
     pub stamp_s: f64,
     /// Predicted value of each channel.
     pub values: Vec<PredictedValue>,
-    /// Distance of the frame from the training data, 1 at the limit; `None` if the model computes no distance.
+    /// Distance of the frame from the training data, where 1 is the limit of the model; `None` if the model computes no distance.
     pub distance: Option<f64>,
     /// True if the frame is outside the training data; `None` if the model computes no distance.
     pub outside: Option<bool>,

@@ -1,4 +1,4 @@
-//! Reads HTTP requests from a socket, with limits of length, lines and time.
+//! Reads HTTP requests from a socket, and limits their size, number of headers and time.
 
 use std::io::{self, Read};
 use std::net::{Shutdown, TcpStream};

@@ -56,7 +56,7 @@ pub struct Choice {
     pub spread: Option<String>,
     /// True if samples behind the numbers are simulated.
     pub simulated: bool,
-    /// Sensors whose greatest depth or force a need uses. Both numbers come from the catalogue, not from results.
+    /// Sensors whose greatest depth or force a need uses. These limits come from the catalogue, not from results.
     pub limits_of_catalogue: Vec<String>,
 }
 
@@ -86,9 +86,10 @@ pub struct Step {
     pub interval: Option<[f64; 2]>,
     /// Standing of the number.
     pub standing: Standing,
-    /// Ratio to the best of the remaining sensors; `None` for hard needs and unknown numbers.
+    /// Ratio of the number to the best number of the remaining sensors; `None` for hard needs and unknown numbers.
     pub share: Option<f64>,
-    /// Measured part for sizes, goods for prices, greatest tested depth and force for published errors; `None` for other properties.
+    /// Context of the number: the measured part of a size, the goods of a price, the greatest tested depth and force of a published error. `None`
+    /// for other properties.
     pub part: Option<String>,
     /// True for a hard need, which does not affect the rank.
     pub is_bound: bool,
@@ -103,7 +104,7 @@ pub struct Step {
 pub struct Dropped {
     /// Name of the sensor.
     pub name: String,
-    /// Every hard need that a number does not meet, then every need with an unknown number; or the reason why verdicts exclude a number.
+    /// Reason as text: every unmet hard need, then every need with an unknown number; or the reason why verdicts exclude a number.
     pub reason: String,
 }
 

@@ -47,7 +47,7 @@ pub struct CompareRequest {
 /// Tests of every common score between every pair of studies, ordered by metric.
 #[derive(Clone, Debug)]
 pub struct Comparison {
-    /// Names of the studies, in their order.
+    /// Names of the compared studies, in the given order.
     pub names: Vec<String>,
     /// Answers for every pair of studies with a common score.
     pub answers: Vec<Answer>,
@@ -76,7 +76,7 @@ pub struct Answer {
     pub scores: Sides<Option<f64>>,
     /// Positions of both studies in the list of studies.
     pub sides: Sides<usize>,
-    /// Verdict by Holm's procedure over all pairs and channels of the metric. A demonstration has no better side.
+    /// Verdict by Holm's procedure over all pairs and channels of the metric. If the models were trained at too few places, no side is better.
     pub verdict: Verdict,
     /// Difference and interval of the verdict, with the raw and the adjusted p value; `None` if there is no verdict.
     pub difference: Option<Difference>,
@@ -127,7 +127,7 @@ impl Answer {
         }
     }
 
-    /// Reason why no values could show a difference, such as too few groups; `None` for other verdicts.
+    /// Reason why the test cannot show any difference, such as too few groups; `None` for other verdicts.
     fn unreachable(&self) -> Option<&str> {
         let is_open = matches!(self.verdict, Verdict::NoDifferenceShown { .. });
         self.out_of_reach.as_deref().filter(|_| is_open)
@@ -318,7 +318,7 @@ fn difference(
     (difference, unpaired)
 }
 
-/// Adjusts and decides the tested pairs together.
+/// Applies Holm's procedure to the tested pairs, and sets their adjusted p values and verdicts.
 fn decide_together(pairs: &mut [Pair<'_>]) {
     let tested = pairs.iter();
     let tested = tested.filter_map(|pair| pair.difference.as_ref().ok().cloned());

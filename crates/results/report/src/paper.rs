@@ -14,7 +14,7 @@ use beside::SENSORS;
 /// Tables of a run in the layout of the TacEva study.
 ///
 /// # Units
-/// As the study prints them: mm, N, mm/N, MP, Hz; robustness to lighting in percent.
+/// Units of the study: mm, N, mm/N, megapixels (MP) and Hz; robustness to lighting in percent.
 ///
 /// ```
 /// use taceva_report::paper_form;

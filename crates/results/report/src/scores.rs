@@ -22,7 +22,7 @@ use taceva_results::{Interval, ScoreLine};
 /// Scores of studies side by side.
 #[derive(Clone, Debug)]
 pub struct ScoreTable {
-    /// Names of the studies, in their order.
+    /// Names of the studies, in the given order.
     pub names: Vec<String>,
     /// Sample origin of each study: `recorded`, `simulated`, `synthetic`, `published`, `unknown` or `several`.
     pub sources: Vec<String>,
@@ -75,7 +75,7 @@ pub struct ScoreCell {
     pub standing: Standing,
     /// Share of predictions beyond the bounds of the model, if known.
     pub bounded_share: Option<f64>,
-    /// True if significantly better than all other cells of the row in verdicts, at 5 % after Holm's adjustment.
+    /// True if the value is significantly better than all other cells of the row in verdicts, at 5 % after Holm's adjustment.
     pub is_best: bool,
 }
 

@@ -144,7 +144,7 @@ impl TaskResult {
         Ok(result)
     }
 
-    /// The same result with the scores without each cluster of `other`, if both results have the same tables and scores.
+    /// Adds the scores that leave out one cluster each from `other`, if both results have the same tables and scores.
     #[must_use]
     pub fn with_clusters_of(self, other: TaskResult) -> TaskResult {
         let is_same = self.tables == other.tables && numbers(&self) == numbers(&other);

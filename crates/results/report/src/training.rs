@@ -44,7 +44,7 @@ pub(crate) fn is_demonstration(studies: &[Study], metric: &str) -> bool {
     reads && too_few(studies).is_some()
 }
 
-/// Reason why a metric of a demonstration has no verdict.
+/// Reason for no verdict on a metric whose models were trained at too few places.
 pub(crate) const NO_VERDICT: &str = "this demonstration gives no verdict on sensors";
 
 /// Sentence for pages whose models were trained at too few places.

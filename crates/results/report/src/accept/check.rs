@@ -55,7 +55,7 @@ pub enum AcceptError {
     OutsideInterval {
         /// Metric, with its variant.
         metric: String,
-        /// Channel or plane.
+        /// Channel or plane of the score, such as `Fz`.
         channel: String,
         /// Symbol of the unit.
         unit: &'static str,

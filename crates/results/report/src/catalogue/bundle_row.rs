@@ -21,7 +21,7 @@ const PREFIX: &str = "sha256:";
 pub(crate) const DEPTH_NOTE: &str = "The level states how deep a number was verified when it was added. `files` and `form` compare bytes and seals. `scores` \
                                      computes it again from sums, and `predictions` from tables of truth and prediction. `model` predicts again on the \
                                      recording, and `fit` fits the model again.";
-/// Number of digits of a digest in names.
+/// Number of hexadecimal digits of a digest that names contain.
 const SHORT: usize = 8;
 
 /// Number of a bundle. The fields are the keys of a row in an entry. The struct gets no further field without a new version of the entries.
@@ -60,9 +60,9 @@ pub struct Measured {
     /// Method of the interval: `jackknife by point_id, G=32`; `None` without an interval.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub method: Option<String>,
-    /// Unit of number and interval.
+    /// Unit of the number and of its interval.
     pub unit: String,
-    /// Number of samples.
+    /// Number of samples behind the number.
     pub n: u64,
     /// Number of clusters behind the interval; `None` if unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -148,7 +148,7 @@ impl Origin {
     }
 }
 
-/// Invalid value of a row, with the key and the accepted values.
+/// Invalid value of a row of an entry, with the key and the accepted values.
 pub(super) struct RowFault {
     pub(super) what: &'static str,
     pub(super) found: String,
@@ -268,7 +268,7 @@ pub fn rows_text(rows: &[Measured]) -> Result<String, toml::ser::Error> {
     toml::to_string(&tables)
 }
 
-/// Line numbers at which the rows of the table `origin` begin in the text of an entry. Empty if the table has another TOML syntax.
+/// Line numbers at which the rows of the table `origin` begin in the text of an entry. Empty if the rows are not written as `[[table]]`.
 ///
 /// ```
 /// use taceva_report::catalogue::{Origin, row_lines};

@@ -26,7 +26,7 @@ pub struct Sensor {
     /// IMM (intensity mapping), MDM (marker displacement) or MFM (modality fusion) for a sensor with a camera; `magnetic`, `capacitive`, `resistive`
     /// or `optical` for taxels.
     pub mechanism: Vec<String>,
-    /// Shape of the sensor; `None` if unknown.
+    /// Shape of the sensor, such as `fingertip`; `None` if unknown.
     pub shape: Option<String>,
     /// True if no ambient light reaches the camera; `None` if unknown.
     pub opaque: Option<bool>,
@@ -65,13 +65,13 @@ pub struct Sensor {
     /// Prediction errors on pictures or signals with faults; `None` if no fault was tested.
     #[serde(skip)]
     pub faults: Option<FaultResult>,
-    /// Unpublished numbers, each with the reason.
+    /// Metrics for which the sources state no number, each with the reason.
     #[serde(default)]
     pub missing: Vec<Missing>,
     /// Properties that the publication reports, each `yes`, `no` or `partial`. The key `source` has the id of the source.
     #[serde(default)]
     pub reported: BTreeMap<String, String>,
-    /// Applications in the evaluation of the sensor, by theme.
+    /// Applications in the evaluation of the sensor, by theme, such as `force`.
     #[serde(default)]
     pub applications: BTreeMap<String, Vec<String>>,
 }

@@ -44,7 +44,7 @@ pub struct Published {
     /// Standing of the number in verdicts, by the published R² of the channel.
     #[serde(skip)]
     pub standing: Standing,
-    /// 95 % confidence interval; `None` for published numbers.
+    /// 95 % confidence interval of a number from a result; `None` for a number from a publication.
     #[serde(skip)]
     pub interval: Option<[f64; 2]>,
 }

@@ -112,7 +112,8 @@ impl Sensor {
         }
     }
 
-    /// Values that tables show without a test: numbers of other definitions, inexact numbers, size, price, limits, and ways to get the sensor.
+    /// Values that tables show but comparisons do not test: numbers of other definitions, inexact numbers, size, price, limits, and ways to get the
+    /// sensor.
     fn facts(&self) -> Vec<Fact> {
         let size = self.size.iter();
         let mut facts: Vec<Fact> = size.map(|of| fact("size", of.shown(), "mm")).collect();

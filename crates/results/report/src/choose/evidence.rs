@@ -198,7 +198,7 @@ impl Choice {
         })
     }
 
-    /// Addition to the sentence on first and second place: tests support or contradict the order.
+    /// Clause for the sentence on first and second place, which states if tests support or contradict the order.
     pub(super) fn caveat(&self) -> String {
         let [first, second, ..] = self.ranked.as_slice() else {
             return String::new();

@@ -30,7 +30,7 @@ pub(super) fn decided(sensor: &Sensor, bound: &Bound) -> Option<Decided> {
     (is_met == is_met_by_greatest).then_some(Decided { is_met, shown })
 }
 
-/// Only price of a ready sensor in the currency of the bound.
+/// Possible values of the only known price of a ready sensor in the currency of the bound; `None` for several prices.
 fn price(sensor: &Sensor, property: Property) -> Option<Inexact> {
     let currency = property.currency()?;
     let ready = sensor.prices.iter();
@@ -45,7 +45,7 @@ fn price(sensor: &Sensor, property: Property) -> Option<Inexact> {
     })
 }
 
-/// Published number of the property.
+/// Possible values of the inexact published number of the property.
 fn published(sensor: &Sensor, property: Property) -> Option<Inexact> {
     let score = property.score()?;
     let mut results = sensor.results.iter().filter(|result| result.is_defined());

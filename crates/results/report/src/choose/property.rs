@@ -150,8 +150,8 @@ impl Property {
         result.map_or(Standing::Counts, |result| result.standing)
     }
 
-    /// Measured part for a size, goods for a price, greatest tested depth and force for a published error, the variant behind a result; `None` for
-    /// other properties.
+    /// Context of the number: the measured part of a size, the goods of a price, the greatest tested depth and force of a published error, or the
+    /// variant of a result. `None` for other properties.
     pub(super) fn part(self, sensor: &Sensor) -> Option<String> {
         match self {
             Property::Repeatability(_) | Property::Spatial(_) | Property::Uniformity => {

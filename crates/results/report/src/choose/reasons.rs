@@ -104,8 +104,8 @@ fn bounds(needs: &[Need]) -> impl Iterator<Item = (&Need, &Bound)> {
     bounds.flat_map(|need| need.bounds.iter().map(move |bound| (need, bound)))
 }
 
-/// Need as written, with its bound if the words do not state it: `firm contact` with `greatest normal force ≥ 1.5 N`. A need such as `force <= 1 N` is a lower
-/// bound, which its words do not state either.
+/// Need as the user wrote it, with its bound if the words do not state it: `firm contact` with `greatest normal force ≥ 1.5 N`. The need `force <=
+/// 1 N` also gets its bound, because the sensor must reach 1 N.
 fn asked(need: &Need, bound: &Bound) -> String {
     let has_number = need.words.contains(|letter: char| letter.is_ascii_digit());
     match has_number && !bound.property.is_reached() {

@@ -120,7 +120,7 @@ impl<'a> Errors<'a> {
     }
 }
 
-/// Clusters that the interval of a score leaves out, for sums of errors by cluster.
+/// Column by which errors are summed: the clusters that the interval of a score leaves out.
 struct Clusters {
     name: &'static str,
     column: &'static str,

@@ -89,7 +89,7 @@ impl Panel {
         self.frame(axes, bottom + below, canvas);
     }
 
-    /// Draws the y ticks, both axis lines and all titles, with the x title at `below`.
+    /// Draws the y ticks, both axis lines and all titles. `below` is the height of the x title.
     fn frame(&self, axes: &Axes, below: f64, canvas: &mut Canvas) {
         let Area { left, top, .. } = self.area;
         let (right, bottom) = (self.area.right(), self.area.bottom());

@@ -32,7 +32,7 @@ pub(crate) struct FaultGrid {
 pub(crate) struct FaultPanel {
     /// Name of the channel.
     pub(crate) channel: String,
-    /// Faults, from above.
+    /// Faults, from top to bottom.
     pub(crate) rows: Vec<FaultRow>,
 }
 

@@ -28,7 +28,7 @@ pub(super) fn levels(curve: &Curve) -> Vec<Level> {
     (0..curve.x.len()).map(level).collect()
 }
 
-/// One sheet for each channel for the curve `variant` of `metric`, with the name of its y axis.
+/// One sheet for each channel, with the variant `curve` of `metric` for each study. `x` and `y` name the axes.
 pub(super) fn sheets(studies: &[Study], metric: &str, x: &str, y: &str, ways: Ways) -> Vec<Sheet> {
     // A level shows a bias, which is best near zero; the metric is the greatest bias.
     let directed_by = match metric {

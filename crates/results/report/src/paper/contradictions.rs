@@ -5,7 +5,7 @@ use crate::catalogue::find;
 use crate::number::fixed;
 use crate::variables::VARIABLES;
 
-/// Least spacing, greatest spacing and step of the gratings in the study, in micrometres. [`BOARDS`] is the number in its text.
+/// Least spacing, greatest spacing and step of the gratings in the study, in micrometres. [`BOARDS`] is the number of boards that its text states.
 const GRATINGS_UM: [u32; 3] = [250, 1750, 50];
 const BOARDS: u32 = 72;
 /// Radius of the indenter in the text of the study and in the caption of a figure, mm.

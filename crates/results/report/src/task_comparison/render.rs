@@ -26,7 +26,7 @@ struct Line<'a> {
 }
 
 impl TaskComparison {
-    /// Names of the results.
+    /// Name of the result at position `at`.
     fn name(&self, at: usize) -> &str {
         &self.results[at].name
     }

@@ -1,4 +1,4 @@
-//! Draws marks as page operators.
+//! Draws marks as page operators of PDF.
 
 use std::collections::BTreeSet;
 

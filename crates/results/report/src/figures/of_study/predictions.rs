@@ -65,7 +65,7 @@ struct Cloud {
 /// One prediction.
 struct Dot {
     at: [f64; 2],
-    /// Truth minus prediction on the vertical axis; 0 if the truth is unknown.
+    /// Prediction error in the channel on the vertical axis, truth minus prediction; 0 if the truth is unknown.
     error: f64,
     /// Contact point and depth step of the press, as text.
     press: String,

@@ -1,4 +1,4 @@
-//! Radars of given values, including values that verdicts exclude.
+//! Radar charts of given values, including values that verdicts exclude.
 
 use taceva_metrics::Better;
 
@@ -14,7 +14,7 @@ pub(super) struct Spoke {
     pub(super) values: Vec<Option<f64>>,
 }
 
-/// Draws a radar of `spokes`; `None` without any value.
+/// Draws a radar chart of `spokes`; `None` without any value.
 pub(super) fn draw_spokes(
     studies: &[Study],
     spokes: &[Spoke],
