@@ -7,7 +7,7 @@ use crate::token::Token;
 /// Accepted hosts, origins and token of requests.
 #[derive(Debug)]
 pub(crate) struct Access {
-    /// Accepted values of `Host`.
+    /// Accepted values of the HTTP header `Host`.
     hosts: [String; 2],
     pub(crate) token: Token,
 }

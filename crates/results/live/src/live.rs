@@ -251,7 +251,7 @@ impl Shared {
         self.inside().state.is_stopping = true;
     }
 
-    /// State as JSON, without the places.
+    /// State of the page as JSON, without the press places.
     pub(crate) fn state_json(&self) -> String {
         let mut inside = self.inside();
         let sight = self.frames.sight();
@@ -271,7 +271,7 @@ impl Shared {
         serde_json::to_string(state).unwrap_or_default()
     }
 
-    /// Places as JSON; `None` if unchanged since `version`. Updates `version`.
+    /// Press places as JSON; `None` if unchanged since `version`. Updates `version`.
     pub(crate) fn places_json(&self, version: &mut Option<u64>) -> Option<String> {
         let inside = self.inside();
         if *version == Some(inside.places_version) {

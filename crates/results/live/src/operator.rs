@@ -6,7 +6,7 @@ use taceva_protocol::{Answer, Cancel, Operator, Question};
 
 use crate::live::Live;
 
-/// Interval of checks for a cancelled run.
+/// Interval at which a waiting question checks if the run was cancelled.
 const LOOK: Duration = Duration::from_millis(100);
 
 /// Operator interface that asks questions on the page only, not at the terminal.

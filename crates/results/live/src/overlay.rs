@@ -70,7 +70,7 @@ impl Overlay {
         }
     }
 
-    /// Value of the HTTP header: ASCII JSON, because browsers read headers as Latin-1.
+    /// Predictions as the value of an HTTP header: ASCII JSON, because browsers read headers as Latin-1.
     pub(crate) fn header(&self) -> String {
         let json = serde_json::to_string(self).unwrap_or_default();
         let mut header = String::with_capacity(json.len());

@@ -1,4 +1,4 @@
-//! Tests for differences of every score between every pair of sensors or models. Results are data and text.
+//! Tests for differences of every score between every pair of sensors or models.
 
 mod comparability;
 mod estimate;
@@ -64,7 +64,7 @@ pub struct Comparison {
 pub struct Answer {
     /// Name of the metric.
     pub metric: String,
-    /// Channel or plane.
+    /// Channel or plane of the score.
     pub channel: String,
     /// Direction in which the score is better.
     pub direction: Better,

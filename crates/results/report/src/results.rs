@@ -100,7 +100,7 @@ pub struct Made {
     pub group: Option<String>,
     /// Settings of the devices that made the recording, by name: `force_rate_hz`.
     pub devices: BTreeMap<String, String>,
-    /// Digest of the samples, for numbers of a bundle in a catalogue.
+    /// Digest of the samples, for values from a bundle in a catalogue.
     pub samples_digest: Option<String>,
 }
 

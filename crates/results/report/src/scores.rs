@@ -40,7 +40,7 @@ pub struct ScoreTable {
 pub struct ScoreRow {
     /// Metric, with an optional variant: `mae`, `r_spatial.within`.
     pub metric: String,
-    /// Channel or plane.
+    /// Channel or plane of the score.
     pub channel: String,
     /// Unit of all cells.
     pub unit: Unit,
@@ -148,7 +148,7 @@ impl ScoreTable {
     }
 }
 
-/// Enters the number of study `at` into its row.
+/// Enters the score `line` of the study at position `at` into its row.
 fn enter(line: &ScoreLine<'_>, at: usize, studies: &[Study], rows: &mut Vec<ScoreRow>) {
     let is_mine = |row: &ScoreRow| {
         let is_named = row.metric == line.name && row.channel == line.channel;

@@ -67,7 +67,7 @@ pub struct TaskAnswer {
     pub score: String,
     /// Unit of both scores; empty for a pure number.
     pub unit: String,
-    /// Positions of both results.
+    /// Positions of both results in the list of results.
     pub sides: Sides<usize>,
     /// Both values; `None` for an undefined value.
     pub values: Sides<Option<f64>>,

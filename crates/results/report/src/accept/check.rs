@@ -180,7 +180,7 @@ impl LimitCheck {
         }
     }
 
-    /// Sets the word and reason of the check from a decision by a rule.
+    /// Sets the verdict and the reason of the check from a decision by a rule.
     fn take_word(&mut self, interval: &LimitInterval, counts_conditional: bool) {
         let Some(decision) = &self.decision else {
             return;

@@ -68,7 +68,7 @@ pub(super) fn acceptance(decision: &Decision) -> Option<String> {
     Some(bounds(limits.least(), limits.most()))
 }
 
-/// Introduction of the effect of a guard band whose scale is logarithmic.
+/// Text before the effect of a guard band on a logarithmic scale.
 pub(super) const ON_SCALE: &str = ", on the logarithmic scale of the interval: ";
 
 /// Effect of a guard band on the limits, such as `the limit divided by 1.57`. `None` without a guard band, or if its width is in the unit of the

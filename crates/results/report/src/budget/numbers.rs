@@ -83,7 +83,7 @@ fn of_source<'a>(source: &'a Source, budget: &'a Budget) -> Entry<'a> {
     }
 }
 
-/// Rows of the value, its factors, and the Monte Carlo result.
+/// Rows of the value, its expanded uncertainty, the coverage factor and probability, and the Monte Carlo result.
 fn results(budget: &Budget) -> Vec<Entry<'_>> {
     let unit = budget.unit.as_str();
     let result = |name, value, unit| Entry {

@@ -24,7 +24,8 @@ pub(crate) const DEPTH_NOTE: &str = "The level states how deep a number was veri
 /// Number of hexadecimal digits of a digest that names contain.
 const SHORT: usize = 8;
 
-/// Number of a bundle. The fields are the keys of a row in an entry. The struct gets no further field without a new version of the entries.
+/// Measured value from a bundle. The fields are the keys of a row in an entry. The struct gets no further field without a new version of the
+/// entries.
 ///
 /// ```
 /// use taceva_report::catalogue::{Origin, Sensor};
@@ -67,7 +68,7 @@ pub struct Measured {
     /// Number of clusters behind the interval; `None` if unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clusters: Option<u64>,
-    /// Definition: `mae/1`.
+    /// Definition of the metric: `mae/1`.
     pub definition: String,
     /// Protocol of the presses: `scene sha256:…`; `None` without a scene.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -96,7 +97,7 @@ pub struct Measured {
     pub traceability: Vec<String>,
 }
 
-/// Table of an entry for numbers of bundles. This type gets no further variant: samples are measured, not measured, or of unknown origin.
+/// Table of an entry for values from bundles. This type gets no further variant: samples are measured, not measured, or of unknown origin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
     /// `[[measured]]`: samples that a real sensor recorded.

@@ -1,4 +1,4 @@
-//! Converts numbers of bundles to studies, and to sensors that `choose` considers.
+//! Converts values from bundles to studies, and to sensors that `choose` considers.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ use crate::results::{Made, Study, by_published_r2};
 const AS_STATED: &str = "as the bundle states it";
 
 impl Sensor {
-    /// Converts published numbers, then the numbers of each bundle, to results. Omits published numbers if the entry has only numbers of bundles.
+    /// Converts published numbers, then the values from each bundle, to results. Omits published numbers if the entry has only values from bundles.
     pub fn studies(&self) -> Vec<Study> {
         let is_published = self.has_published() || !self.has_bundles();
         let published = is_published.then(|| self.as_study());

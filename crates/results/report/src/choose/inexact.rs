@@ -57,7 +57,7 @@ fn published(sensor: &Sensor, property: Property) -> Option<Inexact> {
     })
 }
 
-/// Thickness as one of three outer dimensions, whose order differs between sources.
+/// Possible thickness: one of the three outer dimensions, because their order differs between sources.
 fn thickness(sensor: &Sensor, property: Property) -> Option<Inexact> {
     let size = sensor.size.as_ref();
     let size = size.filter(|size| property == Property::Thickness && size.mm.len() == 3)?;
@@ -82,7 +82,7 @@ mod tests {
     use crate::catalogue;
     use crate::choose::{Choice, Dropped, Need, choose};
 
-    /// Choice among the whole catalogue.
+    /// Choice for `needs` among the whole catalogue.
     fn chosen(needs: &str) -> Choice {
         let needs = Need::parse(needs).unwrap_or_else(|error| panic!("{error}"));
         choose(&catalogue::all(), &needs)

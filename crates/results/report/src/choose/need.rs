@@ -1,4 +1,4 @@
-//! Needs as words and bounds.
+//! Needs of a task, parsed from words and bounds.
 
 use std::fmt;
 use taceva_core::shown;

@@ -51,7 +51,7 @@ pub enum Property {
 }
 
 impl Property {
-    /// Number of `sensor`; `None` if unknown.
+    /// Value of this property for `sensor`; `None` if unknown.
     pub fn of(self, sensor: &Sensor) -> Option<f64> {
         let result = || {
             let (metric, channel) = self.score()?;
@@ -129,7 +129,7 @@ impl Property {
         }
     }
 
-    /// 95 % interval of the number of `sensor`, if any.
+    /// 95 % interval of the value for `sensor`, if any.
     pub fn interval(self, sensor: &Sensor) -> Option<[f64; 2]> {
         if let Property::Degradation(channel) = self {
             let (_, interval) = sensor.faults.as_ref()?.degradation(channel)?;
@@ -139,7 +139,7 @@ impl Property {
         sensor.result(metric, channel)?.interval
     }
 
-    /// Standing of the number of `sensor`. Properties other than scores always count.
+    /// Standing of the value for `sensor`. Properties other than scores always count.
     pub fn standing(self, sensor: &Sensor) -> Standing {
         if let Property::Degradation(channel) | Property::SkillEnd(channel) = self {
             let faults = sensor.faults.as_ref();
@@ -199,7 +199,7 @@ impl Property {
         }
     }
 
-    /// Unit of the number; empty for a share.
+    /// Unit of the property; empty for a share.
     pub fn unit(self) -> &'static str {
         match self {
             Property::Error(channel)

@@ -119,7 +119,7 @@ mod tests {
     use crate::catalogue;
     use crate::choose::{Choice, Dropped, Need, choose};
 
-    /// Choice among the whole catalogue.
+    /// Choice for `needs` among the whole catalogue.
     fn chosen(needs: &str) -> Choice {
         let needs = Need::parse(needs).unwrap_or_else(|error| panic!("{error}"));
         choose(&catalogue::all(), &needs)

@@ -278,7 +278,7 @@ impl Choice {
         format!("{whole:#}\n")
     }
 
-    /// HTML page.
+    /// HTML page of the choice for `needs`.
     pub fn page(&self, needs: &str) -> String {
         let lead = html! { p.lead { "Needs: " (needs) } };
         let mut document = Document::new("Which sensor?", lead);

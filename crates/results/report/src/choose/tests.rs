@@ -271,7 +271,7 @@ fn what_no_sensor_meets_says_who_fails_by_which_number() {
     );
 }
 
-/// Choice among the whole catalogue.
+/// Choice for `needs` among the whole catalogue.
 fn chosen(needs: &str) -> Choice {
     let needs = Need::parse(needs).unwrap_or_else(|error| panic!("{error}"));
     choose(&catalogue::all(), &needs)

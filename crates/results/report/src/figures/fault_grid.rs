@@ -1,4 +1,4 @@
-//! Grid of faults and severities: by how much errors grow, by colour and number.
+//! Grid of faults and severities. The colour and the number of a cell state the growth of the error.
 
 use taceva_metrics::elementary::logarithm;
 

@@ -1,4 +1,4 @@
-//! Curves of scores with one value for each level: bias by level, and shares within a tolerance.
+//! Curves of the bias over the truth, and of the share of samples within a tolerance.
 
 use taceva_core::Unit;
 use taceva_metrics::Curve;
@@ -13,7 +13,7 @@ use super::overlay::{Level, Line, Sheet, Ways, Words, draw as overlay};
 /// Least number of samples in a drawn bin. The mean of fewer samples is noise.
 const FEWEST: u64 = 5;
 
-/// Levels of `curve` without smoothing.
+/// Points of `curve`, without smoothing.
 pub(super) fn levels(curve: &Curve) -> Vec<Level> {
     let band = |at: usize| {
         let band = curve.band.as_ref()?;

@@ -75,7 +75,7 @@ pub(super) struct Rim<'a> {
     pub(super) better: Better,
 }
 
-/// Width of a radar that fits a phone, with axis names in two lines.
+/// Width of a radar chart that fits a phone, with axis names in two lines.
 pub(super) const WIDTH: f64 = 440.0;
 const RADIUS: f64 = 130.0;
 

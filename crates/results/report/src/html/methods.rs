@@ -242,7 +242,7 @@ fn model(studies: &[Study]) -> String {
     }
 }
 
-/// Sentence that scored samples were unseen in training, with the studies for which this is false.
+/// Sentence which states that scored samples were unseen in training, with the studies for which this is false.
 fn unseen(studies: &[Study]) -> String {
     let seen = studies.iter().filter_map(|study| {
         let part = study.made.seen_part.as_ref()?;

@@ -74,7 +74,7 @@ pub(super) fn all(studies: &[Study], scores: &ScoreTable) -> Vec<(String, Table)
     made.map(|(name, table)| (name.to_owned(), table)).collect()
 }
 
-/// One metric for every plane.
+/// Quantities of one metric, one for each plane.
 fn of_planes(metric: &'static str) -> [Quantity; 4] {
     VARIABLES.map(|channel| Quantity {
         name: Words::new(channel).latex(latex_symbol(channel)),
@@ -91,7 +91,7 @@ fn has_printed(table: &Table) -> bool {
 }
 
 impl Sheet<'_> {
-    /// One row for each quantity, one column for each sensor.
+    /// Table with one row for each quantity and one column for each sensor.
     fn of_figure(&self, caption: &str, quantities: &[Quantity]) -> Table {
         let rows = quantities.iter().map(|of| {
             let cells = 0..self.studies.len();

@@ -162,7 +162,7 @@ impl Sheet<'_> {
         table
     }
 
-    /// One row for each plane, one column for each sensor.
+    /// Table with one row for each plane and one column for each sensor.
     fn of_planes(&self, metric: &str, caption: &str) -> Table {
         let sensors = self.names().iter().map(|name| number_column(name));
         let mut table = self.table(caption, [column("plane")].into_iter().chain(sensors));

@@ -87,7 +87,8 @@ impl ScoreTable {
         }
     }
 
-    /// ` on 20 simulated test samples of 3 recordings`; `, as published` for published numbers, which rarely state the number of samples.
+    /// Samples of the caption: ` on 20 simulated test samples of 3 recordings`. Published numbers give `, as published`, because they rarely state
+    /// the number of samples.
     fn samples(&self) -> String {
         let sources: BTreeSet<&str> = self.sources.iter().map(String::as_str).collect();
         if sources.iter().all(|source| *source == "published") {

@@ -1,4 +1,4 @@
-//! Pages of the scores of tasks.
+//! Tests of the page of the scores of tasks.
 
 use taceva_report::{Picture, task_page};
 use taceva_tasks::{Classes, Ranking, TaskReport, TaskScores, WorstSample};

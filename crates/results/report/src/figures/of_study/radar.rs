@@ -6,7 +6,7 @@ use super::super::radar::{Rim, WIDTH, outline, shares, web};
 use crate::figure::{Canvas, Figure};
 use crate::results::Study;
 
-/// Axis of a radar, with one given value for each study.
+/// Axis of a radar chart, with one given value for each study.
 pub(super) struct Spoke {
     /// Name of the axis. The first word has its own line.
     pub(super) name: String,

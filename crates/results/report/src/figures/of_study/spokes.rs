@@ -1,5 +1,5 @@
-//! Figures 8a to 8c: radars of the quantities that the study prints, averaged over positions and forces. A mark identifies values at or below their noise
-//! floor.
+//! Figures 8a to 8c: radar charts of the quantities that the study prints, averaged over positions and forces. A mark identifies values at or below
+//! their noise floor.
 
 use taceva_metrics::{Better, Standing};
 

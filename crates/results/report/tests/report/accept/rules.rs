@@ -1,4 +1,4 @@
-//! Limits of version 2, decided by rules.
+//! Tests of limits of version 2, which rules decide.
 
 use serde_json::json;
 use taceva_metrology::conformity::Word;

@@ -1,4 +1,4 @@
-//! Risks of limits among units of one process.
+//! Tests of the risks of limits among units of one process.
 
 use serde_json::{Value, json};
 use taceva_report::{Acceptance, LimitsFile, Study, accept, add_process_risks};
