@@ -64,7 +64,7 @@ pub struct Comparison {
 pub struct Answer {
     /// Name of the metric.
     pub metric: String,
-    /// Channel or plane of the score.
+    /// Channel or plane of the score, such as `Fz` or `Fxy`.
     pub channel: String,
     /// Direction in which the score is better.
     pub direction: Better,
@@ -76,7 +76,8 @@ pub struct Answer {
     pub scores: Sides<Option<f64>>,
     /// Positions of both studies in the list of studies.
     pub sides: Sides<usize>,
-    /// Verdict by Holm's procedure over all pairs and channels of the metric. If the models were trained at too few places, no side is better.
+    /// Verdict by Holm's procedure over all pairs and channels of the metric. If the models were trained at too few contact points, no side is
+    /// better.
     pub verdict: Verdict,
     /// Difference and interval of the verdict, with the raw and the adjusted p value; `None` if there is no verdict.
     pub difference: Option<Difference>,
@@ -84,7 +85,7 @@ pub struct Answer {
     pub reason: Option<String>,
     /// Reason why the number of groups is too small to show any difference; `None` if the number is large enough.
     pub out_of_reach: Option<String>,
-    /// True if the models were trained at too few places for a verdict on sensors.
+    /// True if the models were trained at too few contact points for a verdict on sensors.
     pub is_demonstration: bool,
     /// Standing of each score in verdicts.
     pub standings: Sides<Standing>,

@@ -27,7 +27,7 @@ pub struct PaperForm {
     pub tables: Vec<(String, Table)>,
     /// Tables without any value, each with the reason.
     pub absent: Vec<(String, String)>,
-    /// Published numbers of figures, next to results of this program, each with the name of the figure: `figure-3c`.
+    /// Published values of figures, next to results of this program, each with the name of the figure: `figure-3c`.
     pub figures: Vec<(String, Table)>,
     /// Contradictions in the study, one sentence each.
     pub contradictions: Vec<String>,

@@ -40,7 +40,7 @@ pub struct ScoreTable {
 pub struct ScoreRow {
     /// Metric, with an optional variant: `mae`, `r_spatial.within`.
     pub metric: String,
-    /// Channel or plane of the score.
+    /// Channel or plane of the score, such as `Fz` or `Fxy`.
     pub channel: String,
     /// Unit of all cells.
     pub unit: Unit,

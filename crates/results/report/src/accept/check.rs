@@ -55,7 +55,7 @@ pub enum AcceptError {
     OutsideInterval {
         /// Metric, with its variant.
         metric: String,
-        /// Channel or plane of the score, such as `Fz`.
+        /// Channel or plane of the score, such as `Fz` or `Fxy`.
         channel: String,
         /// Symbol of the unit.
         unit: &'static str,

@@ -35,7 +35,7 @@ pub struct LimitsFile {
 pub struct Limit {
     /// Metric, with an optional variant: `mae`, `hysteresis.ratio`.
     pub metric: String,
-    /// Channel or plane of the score.
+    /// Channel or plane of the score, such as `Fz` or `Fxy`.
     pub channel: String,
     /// Unit of the limit; must equal the unit of the score.
     pub unit: String,

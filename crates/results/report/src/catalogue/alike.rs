@@ -20,7 +20,7 @@ const SAME: [&str; 6] = [
 ];
 
 impl Sensor {
-    /// Published number of a metric and channel that is comparable with a number of `definition` and `unit`. `None` without a published number, or if
+    /// Published number of a metric and channel that is comparable with a value of `definition` and `unit`. `None` without a published number, or if
     /// its definition differs.
     pub fn published_alike(
         &self,

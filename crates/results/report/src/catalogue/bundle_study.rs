@@ -50,7 +50,7 @@ impl Sensor {
     }
 }
 
-/// Numbers of one study of one bundle; `None` without rows.
+/// Values of one study in one bundle; `None` without rows.
 fn study(sensor: &str, rows: &[&Measured]) -> Option<Study> {
     let first = rows.first()?;
     let least = rows.iter().min_by_key(|row| row.depth())?;

@@ -19,7 +19,7 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// Channel, number, unit and definition of each limit.
+    /// Channel, value, unit and definition of each limit.
     pub(super) fn rows(&self) -> [(&'static str, f64, &'static str, &'static str); 3] {
         [
             (

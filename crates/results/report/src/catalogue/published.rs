@@ -23,7 +23,7 @@ pub struct Source {
 pub struct Published {
     /// Metric: `mae`.
     pub metric: String,
-    /// Channel or plane of the number.
+    /// Channel or plane of the number, such as `Fz` or `Fxy`.
     pub channel: String,
     /// Number in `unit`.
     pub value: f64,

@@ -12,7 +12,7 @@ use crate::number::significant;
 use crate::results::Study;
 use crate::spread;
 
-/// Significant difference between two ranked sensors in one ranking number.
+/// Significant difference between two ranked sensors in one ranking value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evidence {
     /// Name of the better sensor.
@@ -25,7 +25,7 @@ pub struct Evidence {
     pub p: f64,
 }
 
-/// Chooses among the sensors of `studies` like [`choose`](super::choose), and tests the differences of the numbers that rank them.
+/// Chooses among the sensors of `studies` like [`choose`](super::choose), and tests the differences of the values that rank them.
 ///
 /// ```
 /// use taceva_report::{Need, catalogue, choose_results};

@@ -1,10 +1,10 @@
-//! Inexact numbers that decide a bound: `> 1000 USD` is above 500 USD, and no side of 20 × 27 × 18 mm is above 30 mm.
+//! Inexact values that decide a bound: `> 1000 USD` is above 500 USD, and no side of 20 × 27 × 18 mm is above 30 mm.
 
 use super::need::Bound;
 use super::property::Property;
 use crate::catalogue::{Goods, Price, Roughly, Sensor};
 
-/// Decision on a bound by an inexact number.
+/// Decision on a bound by an inexact value.
 pub(super) struct Decided {
     /// True if every possible value meets the bound, false if none does.
     pub(super) is_met: bool,
@@ -18,7 +18,7 @@ struct Inexact {
     shown: String,
 }
 
-/// Decision on `bound` by an inexact number of `sensor`. `None` if an exact number is known, or if only a part of the possible values meets the bound.
+/// Decision on `bound` by an inexact value of `sensor`. `None` if an exact value is known, or if only a part of the possible values meets the bound.
 pub(super) fn decided(sensor: &Sensor, bound: &Bound) -> Option<Decided> {
     let property = bound.property;
     if property.of(sensor).is_some() {

@@ -150,7 +150,7 @@ impl Property {
         result.map_or(Standing::Counts, |result| result.standing)
     }
 
-    /// Context of the number: the measured part of a size, the goods of a price, the greatest tested depth and force of a published error, or the
+    /// Context of the value: the measured part of a size, the goods of a price, the greatest tested depth and force of a published error, or the
     /// variant of a result. `None` for other properties.
     pub(super) fn part(self, sensor: &Sensor) -> Option<String> {
         match self {
@@ -248,7 +248,7 @@ impl Property {
         }
     }
 
-    /// Ratio of `value` to the best of `sensors`, 0 to 1; inverted if lower is better. `None` if greater is better and no number is above 0.
+    /// Ratio of `value` to the best of `sensors`, 0 to 1; inverted if lower is better. `None` if greater is better and no value is above 0.
     pub(super) fn share(self, value: f64, sensors: &[&Sensor]) -> Option<f64> {
         let known = sensors.iter().filter_map(|sensor| self.of(sensor));
         if self.better() == Better::Lower {

@@ -1,11 +1,11 @@
-//! Reasons why a sensor has no rank: every need that it does not meet, and every unknown number.
+//! Reasons why a sensor has no rank: every need that it does not meet, and every unknown value.
 
 use super::inexact::decided;
 use super::{Bound, Need, Property};
 use crate::catalogue::Sensor;
 use crate::names::listed;
 
-/// First number of `sensor` that a need uses and that is excluded from verdicts.
+/// First value of `sensor` that a need uses and that is excluded from verdicts.
 pub(super) fn barred(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let properties = needs
         .iter()
@@ -17,7 +17,7 @@ pub(super) fn barred(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     barred.next()
 }
 
-/// True if the number of `sensor` is known and does not meet `bound`, or if no possible value of an inexact number meets `bound`. Always false for a
+/// True if the value of `sensor` is known and does not meet `bound`, or if no possible value of an inexact value meets `bound`. Always false for a
 /// known greatest depth or force, because the sensor may withstand more than the greatest tested value.
 pub(super) fn is_unmet(sensor: &Sensor, bound: &Bound) -> bool {
     match bound.property.of(sensor) {
@@ -26,12 +26,12 @@ pub(super) fn is_unmet(sensor: &Sensor, bound: &Bound) -> bool {
     }
 }
 
-/// True if an inexact number of `sensor` decides a hard need.
+/// True if an inexact value of `sensor` decides a hard need.
 pub(super) fn is_decided(sensor: &Sensor, needs: &[Need]) -> bool {
     bounds(needs).any(|(_, bound)| decided(sensor, bound).is_some())
 }
 
-/// Hard needs that `sensor` does not meet, each with the number.
+/// Hard needs that `sensor` does not meet, each with the value.
 pub(super) fn unmet(sensor: &Sensor, needs: &[Need]) -> Vec<String> {
     let failed = bounds(needs).filter(|(_, bound)| is_unmet(sensor, bound));
     let reasons = failed.filter_map(|(need, bound)| {
@@ -54,7 +54,7 @@ pub(super) fn unmet(sensor: &Sensor, needs: &[Need]) -> Vec<String> {
     reasons.collect()
 }
 
-/// Hard needs for which the number of `sensor` is unknown.
+/// Hard needs for which the value of `sensor` is unknown.
 pub(super) fn unproven(sensor: &Sensor, needs: &[Need]) -> Vec<String> {
     let unproven = bounds(needs).filter_map(|(need, bound)| {
         let property = bound.property;

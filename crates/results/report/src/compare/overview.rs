@@ -39,7 +39,7 @@ pub struct Decision {
     pub question: String,
     /// Name of the metric.
     pub metric: String,
-    /// Channel or plane of the score.
+    /// Channel or plane of the score, such as `Fz` or `Fxy`.
     pub channel: String,
     /// Deciding variant of the metric; `None` for the value itself.
     pub decided_by: Option<String>,

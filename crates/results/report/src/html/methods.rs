@@ -121,7 +121,7 @@ fn joined(studies: &[Study]) -> String {
     }
 }
 
-/// Sentence on contact places without a name in the recording, from the notes of the results.
+/// Sentence on contact points without a name in the recording, from the notes of the results.
 fn places(studies: &[Study]) -> String {
     let mut notes = studies.iter().flat_map(|study| &study.notes);
     match notes.any(|note| note.contains("names no places")) {
@@ -130,7 +130,7 @@ fn places(studies: &[Study]) -> String {
     }
 }
 
-/// Number of presses in the recordings, and number of contact places in the scored samples, as text.
+/// Number of presses in the recordings, and number of contact points in the scored samples, as text.
 fn pressed(studies: &[Study]) -> String {
     let presses = counted_span(studies, "press", |study| whole(study.made.presses));
     let points = counted_span(studies, "contact point", points);

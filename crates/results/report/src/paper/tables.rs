@@ -46,7 +46,7 @@ pub(super) fn all(studies: &[Study], scores: &ScoreTable) -> [Made; 5] {
     ]
 }
 
-/// True if a cell has a number of the given results. Numbers that the paper prints do not count.
+/// True if a cell has a value of the given results. Values that the paper prints do not count.
 pub(super) fn has_values(table: &Table) -> bool {
     let mut cells = table.rows.iter().flat_map(|row| &row.cells);
     cells.any(|cell| matches!(cell, Cell::Estimate(of) if !matches!(of.formatted.value.as_str(), "" | "–")))
@@ -58,7 +58,7 @@ pub(super) struct Sheet<'a> {
     pub(super) scores: &'a ScoreTable,
 }
 
-/// Number of `fact` in Table I of the study; `None` if absent.
+/// Value of `fact` in Table I of the study; `None` if absent.
 fn fact_of_study(sensor: &Sensor, fact: &str) -> Option<f64> {
     let of = |metric: &str, channel: &str| {
         let mut results = sensor.results.iter().filter(|of| of.source == "study");
