@@ -95,7 +95,7 @@ pub struct Step {
     pub is_bound: bool,
     /// True if the value does not meet a hard need.
     pub is_unmet: bool,
-    /// True if the value meets a hard need but its interval crosses the bound.
+    /// True if an end of the interval does not meet the bound of a hard need.
     pub is_unsure: bool,
 }
 

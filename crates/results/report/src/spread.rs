@@ -142,8 +142,8 @@ fn spreads<'a>(
     (!found.is_empty()).then_some(found)
 }
 
-/// Standard deviation of the labels of a channel in the protocol phase `part`; for a plane, the mean over both axes. Without samples of the
-/// calibration, computed from its scores as RMSE / √(1 − R²).
+/// Standard deviation of the labels of a channel in the protocol phase `part`; for a plane, the mean over both axes. For a calibration without
+/// samples, RMSE / √(1 − R²) of the scores.
 fn spread(study: &Study, part: &str, channel: &str) -> Option<f64> {
     let Some(axes) = plane_axes(channel) else {
         return of_channel(study, part, channel);

@@ -14,7 +14,7 @@ pub struct Limits {
     /// Greatest normal force, in N.
     #[serde(rename = "Fz_max_N")]
     pub fz_max_n: f64,
-    /// Greatest distance of a contact from the centre, in mm.
+    /// Greatest distance of a contact from the centre of the sensing surface, in mm.
     pub radius_max_mm: f64,
 }
 

@@ -51,7 +51,7 @@ pub enum Goods {
     Sensor,
     /// Parts or material for a sensor, or the production of a sensor.
     Parts,
-    /// Not stated by the source.
+    /// Goods that the source does not state.
     Unstated,
 }
 

@@ -104,7 +104,7 @@ fn origin(studies: &[Study]) -> String {
     out
 }
 
-/// Sentence on the tables that imports joined, from the notes of the results.
+/// Sentence on the tables joined by imports, from the notes of the results.
 fn joined(studies: &[Study]) -> String {
     let notes = studies.iter().flat_map(|study| &study.notes);
     let joins = notes.filter_map(|note| note.split_once("import: table "));

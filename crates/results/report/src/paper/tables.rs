@@ -19,7 +19,7 @@ pub(super) struct Made {
 
 /// Force variables, then position variables: the order in the calibration and lighting tables.
 const BLOCKS: [[&str; 2]; 2] = [["Fxy", "Fz"], ["Pxy", "Pz"]];
-/// Light scenes.
+/// Names of the light scenes of the study.
 pub(super) const SCENES: [&str; 4] = ["S1", "S2", "S3", "S4"];
 
 /// All tables, in order.

@@ -49,7 +49,7 @@ impl Line<'_> {
 struct Note {
     word: &'static str,
     reason: String,
-    /// Scores with the word or mark, by study.
+    /// Scores that have the word or the mark of the note, by study.
     places: Vec<(String, Vec<String>)>,
 }
 

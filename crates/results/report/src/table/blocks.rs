@@ -1,4 +1,4 @@
-//! Divides tables wider than a paper into blocks of columns.
+//! Divides tables wider than a page of a paper into blocks of columns.
 
 use super::room::{GAP_PT, letters_pt};
 use super::{Cell, Row, Table};

@@ -149,7 +149,7 @@ fn line(indent: &str, cells: &[String]) -> String {
     format!("{indent}{} \\\\\n", cells.join(" & "))
 }
 
-/// Line below a row with intervals.
+/// Line of LaTeX with the intervals of a row, below its values.
 fn below(indent: &str, row: &Row) -> String {
     let cells: Vec<Option<String>> = row.cells.iter().map(|cell| cell.latex_below()).collect();
     if cells.iter().flatten().all(String::is_empty) {
