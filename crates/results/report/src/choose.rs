@@ -84,7 +84,7 @@ pub struct Step {
     pub inexact: Option<String>,
     /// 95 % confidence interval; `None` if unknown.
     pub interval: Option<[f64; 2]>,
-    /// Standing of the value.
+    /// Standing of the value in verdicts.
     pub standing: Standing,
     /// Ratio of the value to the best value of the remaining sensors; `None` for hard needs and unknown values.
     pub share: Option<f64>,

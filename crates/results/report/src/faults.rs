@@ -163,7 +163,7 @@ impl FaultResult {
         (count > 0.0).then(|| ends.iter().sum::<f64>() / count)
     }
 
-    /// Standing of the values of a channel. Without skill, faults cannot add to the error of the channel, so the values have no meaning.
+    /// Standing of the values of a channel in verdicts. Without skill, faults cannot add to the error of the channel, so the values have no meaning.
     pub(crate) fn standing(&self, channel: &str) -> Standing {
         let skill = self.clean.get(channel).map(|of| of.skill);
         match skill.map(|skill| (skill.value, skill.ci95)) {

@@ -29,11 +29,11 @@ pub struct PaperForm {
     pub absent: Vec<(String, String)>,
     /// Published values of figures, next to results of this program, each with the name of the figure: `figure-3c`.
     pub figures: Vec<(String, Table)>,
-    /// Contradictions in the study, one sentence each.
+    /// Contradictions in the TacEva study, one sentence each.
     pub contradictions: Vec<String>,
 }
 
-/// Tables I to V of the study and the numbers of its figures, for `studies`. Sensors of the study come first, in the order of the study.
+/// Tables I to V of the TacEva study and the numbers of its figures, for `studies`. Sensors of the study come first, in the order of the study.
 pub fn paper_form(studies: &[Study]) -> PaperForm {
     let ordered = in_order(studies);
     let scores = ScoreTable::of(&ordered);
@@ -53,7 +53,7 @@ pub fn paper_form(studies: &[Study]) -> PaperForm {
     form
 }
 
-/// Studies, with the sensors of the paper first.
+/// Studies, with the sensors of the TacEva study first.
 fn in_order(studies: &[Study]) -> Vec<Study> {
     let place = |study: &Study| {
         let known = SENSORS.iter().position(|name| *name == study.sensor);
@@ -79,8 +79,8 @@ impl PaperForm {
         out
     }
 
-    /// Figures of the study as Markdown: drawn figures with caption and published numbers, other figures with the reason. Images are SVG files next
-    /// to the text.
+    /// Figures of the TacEva study as Markdown: drawn figures with caption and published numbers, other figures with the reason. Images are SVG
+    /// files next to the text.
     pub fn markdown_of(&self, figures: &StudyFigures) -> String {
         let mut out = String::new();
         for figure in &figures.drawn {

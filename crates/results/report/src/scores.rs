@@ -61,9 +61,9 @@ pub struct ScoreCell {
     pub ends: Option<[f64; 2]>,
     /// Method of the interval; `None` without an interval.
     pub method: Option<String>,
-    /// Number of groups of the split that the interval leaves out; `None` for an interval over contact points.
+    /// Number of groups of the split by which the interval is computed; `None` for an interval by contact point.
     pub groups: Option<usize>,
-    /// Number of clusters of contact points that the interval leaves out; `None` for an interval over groups or independent samples.
+    /// Number of clusters of contact points by which the interval is computed; `None` for an interval by group or by independent sample.
     pub points: Option<usize>,
     /// Degrees of freedom of Student's t for the interval, if the result states them.
     pub degrees_of_freedom: Option<f64>,

@@ -328,7 +328,7 @@ impl ResultScore {
         }
     }
 
-    /// Standing of the score. The score counts if its whole interval is better than the best constant, or if no constant has a score.
+    /// Standing of the score in verdicts. The score counts if its whole interval is better than the best constant, or if no constant has a score.
     pub(crate) fn standing(&self) -> Standing {
         let Some(constant) = self.estimate.of_constant else {
             return Standing::Counts;

@@ -8,8 +8,8 @@ use super::{Published, Sensor};
 /// Definitions of this program that equal the definition of the same metric in the catalogue. Other definitions are not comparable.
 ///
 /// Success rates are excluded, because they depend on the number of spacings in a scene, and fewer spacings are easier to predict. Robustness over
-/// the surface is excluded, because its published definition is unclear: the study's table differs from half the sum of the numbers in the study's
-/// figure.
+/// the surface is excluded, because its published definition is unclear: the table of the TacEva study differs from half the sum of the numbers in
+/// its figure.
 const SAME: [&str; 6] = [
     "mae/1",
     "r2/1",

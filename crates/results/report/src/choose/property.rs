@@ -139,7 +139,7 @@ impl Property {
         sensor.result(metric, channel)?.interval
     }
 
-    /// Standing of the value for `sensor`. Properties other than scores always count.
+    /// Standing of the value for `sensor` in verdicts. Properties other than scores always count.
     pub fn standing(self, sensor: &Sensor) -> Standing {
         if let Property::Degradation(channel) | Property::SkillEnd(channel) = self {
             let faults = sensor.faults.as_ref();

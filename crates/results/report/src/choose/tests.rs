@@ -5,7 +5,7 @@ use crate::Study;
 use crate::catalogue;
 use crate::faults::tests::{drawn, without_skill};
 
-/// Names of the four sensors of the study, ranked for `needs`.
+/// Names of the four sensors of the TacEva study, ranked for `needs`.
 fn ranked(needs: &str) -> Vec<String> {
     let needs = Need::parse(needs).unwrap_or_else(|error| panic!("{error}"));
     let of_study = ["GelSight", "GelSightWM", "MagicTac", "ViTacTip"];

@@ -17,7 +17,7 @@ use crate::scores::ScoreTable;
 use crate::short_digests::short_digests;
 use taceva_results::Interval;
 
-/// Citation of the study that defined the metrics, as its publisher prints it.
+/// Citation of the TacEva study, which defined the metrics, as its publisher prints it.
 const STUDY: &str = "@article{taceva-study,\n  author  = {Cong, Qingzheng and Oh, Steven and Fan, Wen and Luo, Shan and Althoefer, Kaspar and Zhang, Dandan},\n  title   = {{TacEva}: A Performance Evaluation Framework for Vision-Based Tactile Sensors},\n  journal = {Advanced Intelligent Systems},\n  year    = {2026},\n  doi     = {10.1002/aisy.202501179}\n}";
 
 /// Paragraph and BibTeX entries, each with a copy button, and tables of the sensors and of their devices.
@@ -287,7 +287,7 @@ fn scope(studies: &[Study]) -> String {
     )
 }
 
-/// Plural name of the clusters that intervals leave out: `contact points`, `groups by object`, `samples`.
+/// Plural name of the clusters by which intervals are computed: `contact points`, `groups by object`, `samples`.
 pub(super) fn clusters(studies: &[Study]) -> String {
     let are_samples = |study: &Study| {
         let intervals = study.scores.iter();
@@ -334,7 +334,7 @@ fn values(studies: &[Study], name: &str) -> Option<Vec<String>> {
     (!values.is_empty()).then_some(values)
 }
 
-/// BibTeX entries of the program, the study, and the sources of published numbers.
+/// BibTeX entries of the program, the TacEva study, and the sources of published numbers.
 fn bibtex(studies: &[Study]) -> String {
     let versions = values(studies, "taceva");
     let version = versions.map_or_else(

@@ -1,4 +1,4 @@
-//! Values that the study publishes in its figures, next to values of this program.
+//! Values that the TacEva study publishes in its figures, next to values of this program.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::scores::ScoreTable;
 use crate::table::{Cell, NAME_PT, Row, Table, VALUE_SIZE, Words, latex_symbol, stacked};
 use crate::variables::VARIABLES;
 
-/// Sentence on the figures of the study without numbers.
+/// Sentence on the figures of the TacEva study without numbers.
 pub(super) const UNPRINTED: &str = "The study prints no numbers with its figures 6a, 7a, 7b and 8a to 8c; its table V has the means of figure 7b, and its tables and figures 3c and 4 have the quantities of figure 8.";
 
 /// A value of a figure: its name, its score, and the printed digits.
@@ -22,7 +22,7 @@ struct Quantity {
     digits: Digits,
 }
 
-/// One table for each figure, with values of this program, values of the study, and the name of the figure.
+/// One table for each figure, with values of this program, values of the TacEva study, and the name of the figure.
 pub(super) fn all(studies: &[Study], scores: &ScoreTable) -> Vec<(String, Table)> {
     let sheet = Sheet { studies, scores };
     let quantity = |name: &str, metric, channel, digits| Quantity {
@@ -84,7 +84,7 @@ fn of_planes(metric: &'static str) -> [Quantity; 4] {
     })
 }
 
-/// True if a cell has a value that the study prints.
+/// True if a cell has a value that the TacEva study prints.
 fn has_printed(table: &Table) -> bool {
     let mut cells = table.rows.iter().flat_map(|row| &row.cells);
     cells.any(|cell| matches!(cell, Cell::Estimate(estimate) if estimate.remark.is_some()))

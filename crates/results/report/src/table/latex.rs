@@ -4,7 +4,7 @@ use super::room::{COLUMN_PT, PAGE_PT, breakable};
 use super::{Row, Table, Words};
 use crate::escape::{LETTER, LETTER_DEFINITION, latex as escape};
 
-/// Total number of letters in column names up to which the names have the font size of numbers, in a page column.
+/// Number of letters in all column names above which the names are smaller than the numbers, in a page column.
 const LETTERS: usize = 28;
 /// Number of columns above which numbers in a page column are smaller.
 const COLUMNS: usize = 5;
