@@ -151,7 +151,7 @@ impl Acceptance<'_> {
         format!("{whole:#}\n")
     }
 
-    /// Data sheet of one page, HTML.
+    /// Data sheet on one page, as HTML.
     pub fn page(&self) -> String {
         let studies = std::slice::from_ref(self.study);
         let lead = html! { (badge(studies)) (self.verdict()) };
