@@ -7,13 +7,13 @@ use crate::token::Token;
 /// Accepted hosts, origins and token of requests.
 #[derive(Debug)]
 pub(crate) struct Access {
-    /// Accepted values of `Host`.
+    /// Accepted values of the HTTP header `Host`.
     hosts: [String; 2],
     pub(crate) token: Token,
 }
 
 impl Access {
-    /// Creates the requirements for a page on `port` of this machine.
+    /// Creates the access control of a page on `port` of this machine.
     pub(crate) fn new(port: u16, token: Token) -> Access {
         let hosts = ["127.0.0.1", "localhost"].map(|host| format!("{host}:{port}"));
         Access { hosts, token }

@@ -1,4 +1,4 @@
-//! Error of opening a page.
+//! Error of opening the page of a run.
 
 use std::io;
 

@@ -13,7 +13,7 @@ use crate::sight::Sight;
 
 /// Minimum interval between pictures. Fifteen pictures a second appear as motion.
 const PERIOD: Duration = Duration::from_nanos(1_000_000_000 / 15);
-/// Minimum interval between pictures with predictions. No frame of an irregular stream of 30 frames a second is skipped.
+/// Minimum interval between pictures with predictions. Every frame of an irregular stream of 30 frames a second becomes a picture.
 const PREDICTED_PERIOD: Duration = Duration::from_millis(16);
 /// Maximum side of a picture, pixels.
 const SIDE_MAX: usize = 960;

@@ -1,4 +1,4 @@
-//! State that the program with the devices shares with the page: newest values without history.
+//! State that the devices' program shares with the page: the newest values, without history.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
@@ -34,7 +34,7 @@ pub(crate) struct Shared {
 struct Inside {
     state: State,
     places: Vec<Place>,
-    /// Version of the places, incremented at each change.
+    /// Version of the list of press places, incremented at each change.
     places_version: u64,
     questions: u64,
     /// Arrival times of recent frames, for their rate.
@@ -251,7 +251,7 @@ impl Shared {
         self.inside().state.is_stopping = true;
     }
 
-    /// State as JSON, without the places.
+    /// State of the page as JSON, without the press places.
     pub(crate) fn state_json(&self) -> String {
         let mut inside = self.inside();
         let sight = self.frames.sight();
@@ -271,7 +271,7 @@ impl Shared {
         serde_json::to_string(state).unwrap_or_default()
     }
 
-    /// Places as JSON; `None` if unchanged since `version`. Updates `version`.
+    /// Press places as JSON; `None` if unchanged since `version`. Updates `version`.
     pub(crate) fn places_json(&self, version: &mut Option<u64>) -> Option<String> {
         let inside = self.inside();
         if *version == Some(inside.places_version) {

@@ -6,10 +6,10 @@ use taceva_protocol::{Answer, Cancel, Operator, Question};
 
 use crate::live::Live;
 
-/// Interval of checks for a cancelled run.
+/// Interval at which a waiting question checks if the run was cancelled.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// Asks questions on the page only, not at the terminal.
+/// Operator interface that asks questions on the page only, not at the terminal.
 ///
 /// ```
 /// use taceva_live::{Live, PageOperator};

@@ -20,7 +20,7 @@ pub struct Overlay {
     pub stamp_s: f64,
     /// Predicted value of each channel.
     pub values: Vec<PredictedValue>,
-    /// Distance of the frame from the training data, 1 at the limit; `None` if the model computes no distance.
+    /// Distance of the frame from the training data, where 1 is the limit of the model; `None` if the model computes no distance.
     pub distance: Option<f64>,
     /// True if the frame is outside the training data; `None` if the model computes no distance.
     pub outside: Option<bool>,
@@ -70,7 +70,7 @@ impl Overlay {
         }
     }
 
-    /// Value of the HTTP header: ASCII JSON, because browsers read headers as Latin-1.
+    /// Predictions as the value of an HTTP header: ASCII JSON, because browsers read headers as Latin-1.
     pub(crate) fn header(&self) -> String {
         let json = serde_json::to_string(self).unwrap_or_default();
         let mut header = String::with_capacity(json.len());

@@ -110,7 +110,7 @@ impl Drop for Page {
     }
 }
 
-/// Starts a thread for every connection. A new connection may close an old connection without the token, so that the server always answers the stop button.
+/// Starts a thread for every connection. Connections without the token are limited, so that the server always answers the stop button.
 fn accept(listener: &TcpListener, site: &Arc<Site>, connections: &Arc<AtomicUsize>) {
     let strangers = Arc::new(Strangers::default());
     loop {
@@ -148,7 +148,7 @@ fn accept(listener: &TcpListener, site: &Arc<Site>, connections: &Arc<AtomicUsiz
 struct Leaves(Arc<AtomicUsize>);
 
 impl Leaves {
-    /// Increments the number of open connections until the result is dropped.
+    /// Increments the number of open connections. Dropping the result decrements the number.
     fn enter(connections: &Arc<AtomicUsize>) -> Leaves {
         connections.fetch_add(1, Ordering::AcqRel);
         Leaves(Arc::clone(connections))

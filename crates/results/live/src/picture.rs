@@ -50,7 +50,7 @@ fn sphere(radius_mm: f64) -> String {
     )
 }
 
-/// Bottom view of lines along y, or of dots, at their spacing and without rotation.
+/// Bottom view of a grating: lines along y, or dots, at their spacing and without rotation.
 fn grating(kind: GratingKind, spacing_mm: f64) -> String {
     let side = 16.0_f64;
     let half = side / 2.0;

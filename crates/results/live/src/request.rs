@@ -1,4 +1,4 @@
-//! Reads HTTP requests from a socket, with limits of length, lines and time.
+//! Reads HTTP requests from a socket, and limits their size, number of headers and time.
 
 use std::io::{self, Read};
 use std::net::{Shutdown, TcpStream};
@@ -6,11 +6,11 @@ use std::time::{Duration, Instant};
 
 use crate::response::Status;
 
-/// Maximum size of a head, bytes.
+/// Maximum size of a request head, bytes.
 const HEAD_MAX: usize = 8192;
 /// Maximum number of header lines.
 const HEADERS_MAX: usize = 32;
-/// Maximum size of a body, bytes. Answers to questions are shorter.
+/// Maximum size of a request body, bytes. Answers to questions are shorter.
 const BODY_MAX: usize = 1024;
 /// Timeout for a whole request.
 const WHOLE: Duration = Duration::from_secs(5);

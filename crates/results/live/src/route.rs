@@ -17,7 +17,7 @@ use crate::strangers::Stranger;
 
 /// Maximum number of streams, enough for two pages.
 const STREAMS_MAX: usize = 4;
-/// Interval at which the state is sent.
+/// Interval at which the state of the page is sent.
 const EVENTS: Duration = Duration::from_millis(100);
 /// Interval at which a stream without pictures checks for the end of the page.
 const LOOK: Duration = Duration::from_millis(250);

@@ -7,8 +7,8 @@ use taceva_core::Frame;
 pub(crate) struct Sight {
     /// Share of pixel values at full scale, 0 to 1, as in `taceva check`.
     pub(crate) saturated: f64,
-    /// Mean square of the Laplacian (4 times a pixel minus its four neighbours) of the first colour, in steps² of 8 bits. Sharpness is greatest in focus.
-    /// Values of different scenes are not comparable.
+    /// Mean square of the Laplacian (4 times a pixel minus its four neighbours) of the first colour channel over sampled pixels, in squared 8-bit
+    /// levels. Sharpness is greatest in focus. Values of different scenes are not comparable.
     pub(crate) sharpness: f64,
 }
 

@@ -113,7 +113,7 @@ pub(crate) struct State {
     /// Name of the model behind the predictions over pictures; `None` if not given.
     pub(crate) predicted_by: Option<String>,
     pub(crate) predicted: Option<PredictedFrames>,
-    /// Frames given to the page, and their rate, 1/s.
+    /// Number of frames given to the page. The next field is their rate, 1/s.
     pub(crate) frames: u64,
     pub(crate) rate_hz: f64,
     pub(crate) dropped: u64,

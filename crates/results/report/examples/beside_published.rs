@@ -23,7 +23,7 @@ const CHANNELS: [&str; 4] = ["Pxy", "Pz", "Fxy", "Fz"];
 const ERROR: f64 = 0.01;
 const TAU: f64 = 0.4;
 
-/// Published number of a sensor, and our number with one seed.
+/// Published number of a sensor, and our value with one seed.
 #[derive(Clone, Copy, Debug)]
 struct Number {
     published: f64,
@@ -138,7 +138,7 @@ fn number(name: &str, study: &Study, metric: &str, channel: &str) -> Option<Numb
     })
 }
 
-/// Cell with the number of a sensor over all seeds, and true if the mean is at least as good as the published number.
+/// Cell with the value of a sensor over all seeds, and true if the mean is at least as good as the published number.
 fn cell(numbers: &[Number], better: Better) -> (String, bool) {
     let found: Vec<f64> = numbers.iter().map(|number| number.found).collect();
     let (mean, published) = (mean(&found), numbers[0].published);
@@ -175,7 +175,7 @@ fn short(value: f64, width: f64) -> String {
     FormattedValue::number(value, Some([value - width / 2.0, value + width / 2.0])).value
 }
 
-/// Kendall's rank correlation of our numbers with published numbers; `None` for fewer than two sensors.
+/// Kendall's rank correlation of our values with published numbers; `None` for fewer than two sensors.
 ///
 /// Σ wₚ sₚ / Σ wₚ over the pairs p of sensors. s is 1 for the same order, −1 for the opposite order, and 0 if two numbers are equal. w is ½ if our
 /// intervals overlap, else 1.

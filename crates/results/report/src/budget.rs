@@ -15,7 +15,7 @@ use crate::html::{Document, drawn};
 use crate::number::FormattedValue;
 use crate::table::{Align, Cell, Column, Table, Words};
 
-/// Uncertainty budgets of one file, with their context.
+/// Uncertainty budgets of one budget file, with their context.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BudgetReport {
     /// Budgets, one for each value of the measurand.

@@ -1,11 +1,11 @@
-//! Sources of a budget that a result can provide.
+//! Uncertainty sources that a result can provide for a budget.
 
 use crate::escape::toml_string as quoted;
 
 /// Source of a budget: a measured figure with a name for readers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct BudgetSource {
-    /// Figure of the result: `error.within`.
+    /// Key of the figure in the result, such as `error.within`.
     pub(crate) figure: &'static str,
     pub(crate) name: &'static str,
     /// Lines with further keys. The user must replace a value `?`.
@@ -24,11 +24,11 @@ pub(crate) const BETWEEN: BudgetSource = source("error.between", "place to place
 pub(crate) const WITHIN: BudgetSource = source("error.within", "one reading", "readings = 1\n");
 /// Scatter of repeated presses. [`WITHIN`] includes this scatter.
 pub(crate) const REPEATS: BudgetSource = source("repeatability", "repeats", "readings = 1\n");
-/// Zero height of the depths. [`WITHIN`], [`BETWEEN`] and [`REPEATS`] include its error.
+/// Zero point of the depths. [`WITHIN`], [`BETWEEN`] and [`REPEATS`] include its error.
 pub(crate) const ZERO: BudgetSource = source("zero_u_mm", "zero of depths", "");
-/// Errors in other light scenes.
+/// Variation of the mean residual between light scenes.
 pub(crate) const LIGHT: BudgetSource = source("r_light", "other light", "");
-/// Change of the zero over time.
+/// Drift of the sensor's zero over time.
 pub(crate) const DRIFT: BudgetSource = source(
     "drift",
     "drift since calibration",

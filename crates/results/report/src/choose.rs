@@ -1,4 +1,4 @@
-//! Chooses a sensor for a task: hard needs exclude sensors, soft needs rank them, and each step shows its numbers.
+//! Chooses a sensor for a task: hard needs exclude sensors, soft needs rank them, and each step shows its values.
 
 mod evidence;
 mod faults;
@@ -27,26 +27,26 @@ use taceva_metrics::Standing;
 
 use crate::catalogue::{Kind, Sensor};
 
-/// Result of a choice: shortlist, other sensors, and the numbers used.
+/// Result of a choice: shortlist, other sensors, and the values used.
 #[derive(Clone, Debug, Default)]
 pub struct Choice {
     /// Sensors that meet the needs, best first.
     pub ranked: Vec<Candidate>,
-    /// Sensors with an unknown number for a hard need, ordered by name.
+    /// Sensors with an unknown value for a hard need, ordered by name.
     pub open: Vec<Dropped>,
     /// Sensors that do not meet a hard need.
     pub dropped: Vec<Dropped>,
-    /// Sensors without a rank, because a number that a need uses is excluded from verdicts.
+    /// Sensors without a rank, because a value that a need uses is excluded from verdicts.
     pub barred: Vec<Dropped>,
-    /// Sensors that meet the hard needs but have no rank, because a number for a ranking need is unknown.
+    /// Sensors that meet the hard needs but have no rank, because a value for a ranking need is unknown.
     pub unplaced: Vec<Dropped>,
     /// Sensors that meet the hard needs but have no rank, because samples, test parts, definitions or faults differ between sensors.
     pub apart: Vec<Dropped>,
-    /// Numbers of the sensors without a rank, in the order of the sensors.
+    /// Values of the sensors without a rank, in the order of the sensors.
     pub others: Vec<Candidate>,
-    /// Sensors without any number that the needs use, but with a number by another definition, named in the reason.
+    /// Sensors without any value that the needs use, but with a value by another definition, named in the reason.
     pub other_definitions: Vec<Dropped>,
-    /// Sensors without any number that the needs use, by any definition.
+    /// Sensors without any value that the needs use, by any definition.
     pub unknown: Vec<String>,
     /// Number of sensors without an exact price in a currency of the needs, by the currency of their exact prices.
     pub other_currencies: BTreeMap<String, usize>,
@@ -54,9 +54,9 @@ pub struct Choice {
     pub evidence: Option<Vec<Evidence>>,
     /// Remark that ranking errors are not comparable, if the label spreads of the sensors differ.
     pub spread: Option<String>,
-    /// True if samples behind the numbers are simulated.
+    /// True if samples behind the values are simulated.
     pub simulated: bool,
-    /// Sensors whose greatest depth or force a need uses. Both numbers come from the catalogue, not from results.
+    /// Sensors whose greatest depth or force a need uses. These limits come from the catalogue, not from results.
     pub limits_of_catalogue: Vec<String>,
 }
 
@@ -67,34 +67,35 @@ pub struct Candidate {
     pub name: String,
     /// Score for the rank, 0 to 1: mean over soft needs of the ratio to the best sensor; 1 without soft needs.
     pub share: f64,
-    /// Numbers of the sensor that the needs use.
+    /// Values of the sensor that the needs use.
     pub steps: Vec<Step>,
 }
 
-/// One number of a sensor for one need.
+/// One value of a sensor for one need.
 #[derive(Clone, Debug)]
 pub struct Step {
     /// Text of the need.
     pub need: String,
     /// Property that the need uses: `MAE Fxy`.
     pub property: Property,
-    /// Number that the need uses; `None` if unknown.
+    /// Value that the need uses; `None` if unknown.
     pub value: Option<f64>,
-    /// Inexact number that decides a hard need, such as `> 1000 USD`; `None` if an exact number is known or if the need stays open.
+    /// Inexact value that decides a hard need, such as `> 1000 USD`; `None` if an exact value is known or if the need stays open.
     pub inexact: Option<String>,
     /// 95 % confidence interval; `None` if unknown.
     pub interval: Option<[f64; 2]>,
-    /// Standing of the number.
+    /// Standing of the value in verdicts.
     pub standing: Standing,
-    /// Ratio to the best of the remaining sensors; `None` for hard needs and unknown numbers.
+    /// Ratio of the value to the best value of the remaining sensors; `None` for hard needs and unknown values.
     pub share: Option<f64>,
-    /// Measured part for sizes, goods for prices, greatest tested depth and force for published errors; `None` for other properties.
+    /// Context of the value: the measured part of a size, the goods of a price, the greatest tested depth and force of a published error. `None`
+    /// for other properties.
     pub part: Option<String>,
     /// True for a hard need, which does not affect the rank.
     pub is_bound: bool,
-    /// True if the number does not meet a hard need.
+    /// True if the value does not meet a hard need.
     pub is_unmet: bool,
-    /// True if the number meets a hard need but its interval crosses the bound.
+    /// True if an end of the interval does not meet the bound of a hard need.
     pub is_unsure: bool,
 }
 
@@ -103,7 +104,7 @@ pub struct Step {
 pub struct Dropped {
     /// Name of the sensor.
     pub name: String,
-    /// Every hard need that a number does not meet, then every need with an unknown number; or the reason why verdicts exclude a number.
+    /// Reason as text: every unmet hard need, then every need with an unknown value; or the reason why verdicts exclude a value.
     pub reason: String,
 }
 
@@ -118,9 +119,10 @@ impl Dropped {
 
 /// Chooses among `sensors` for `needs`.
 ///
-/// A hard need excludes every sensor whose number does not meet it, and sets apart sensors whose number is unknown. A sensor with a score that is excluded from
-/// verdicts has no rank. Studies of sensors are skipped. A soft need scores each remaining sensor by its mean ratio to the best sensor, over the numbers of the
-/// need. The rank follows the mean over soft needs. A sensor that lacks a number has no rank. Sensors with equal scores share a rank and are ordered by name.
+/// A hard need excludes every sensor whose value does not meet it, and sets apart sensors whose value is unknown. A sensor with a score that is
+/// excluded from verdicts has no rank. Studies of sensors are skipped. A soft need scores each remaining sensor by its mean ratio to the best
+/// sensor, over the values of the need. The rank follows the mean over soft needs. A sensor that lacks a value has no rank. Sensors with equal
+/// scores share a rank and are ordered by name.
 ///
 /// ```
 /// use taceva_report::{Need, catalogue, choose};
@@ -204,7 +206,7 @@ fn other_currencies(sensors: &[Sensor], needs: &[Need]) -> BTreeMap<String, usiz
     counts
 }
 
-/// Numbers of `sensor` for the properties in `needs`, but by other definitions; each property once.
+/// Values of `sensor` for the properties in `needs`, but by other definitions; each property once.
 fn by_other_definition(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let properties = needs.iter().flat_map(Need::properties);
     let found = taceva_core::distinct(properties.filter_map(|property| {

@@ -1,4 +1,4 @@
-//! Tests for differences of every score between every pair of sensors or models. Results are data and text.
+//! Tests for differences of every score between every pair of sensors or models.
 
 mod comparability;
 mod estimate;
@@ -47,7 +47,7 @@ pub struct CompareRequest {
 /// Tests of every common score between every pair of studies, ordered by metric.
 #[derive(Clone, Debug)]
 pub struct Comparison {
-    /// Names of the studies, in their order.
+    /// Names of the compared studies, in the given order.
     pub names: Vec<String>,
     /// Answers for every pair of studies with a common score.
     pub answers: Vec<Answer>,
@@ -64,7 +64,7 @@ pub struct Comparison {
 pub struct Answer {
     /// Name of the metric.
     pub metric: String,
-    /// Channel or plane.
+    /// Channel or plane of the score, such as `Fz` or `Fxy`.
     pub channel: String,
     /// Direction in which the score is better.
     pub direction: Better,
@@ -76,7 +76,8 @@ pub struct Answer {
     pub scores: Sides<Option<f64>>,
     /// Positions of both studies in the list of studies.
     pub sides: Sides<usize>,
-    /// Verdict by Holm's procedure over all pairs and channels of the metric. A demonstration has no better side.
+    /// Verdict by Holm's procedure over all pairs and channels of the metric. If the models were trained at too few contact points, no side is
+    /// better.
     pub verdict: Verdict,
     /// Difference and interval of the verdict, with the raw and the adjusted p value; `None` if there is no verdict.
     pub difference: Option<Difference>,
@@ -84,7 +85,7 @@ pub struct Answer {
     pub reason: Option<String>,
     /// Reason why the number of groups is too small to show any difference; `None` if the number is large enough.
     pub out_of_reach: Option<String>,
-    /// True if the models were trained at too few places for a verdict on sensors.
+    /// True if the models were trained at too few contact points for a verdict on sensors.
     pub is_demonstration: bool,
     /// Standing of each score in verdicts.
     pub standings: Sides<Standing>,
@@ -127,7 +128,7 @@ impl Answer {
         }
     }
 
-    /// Reason why no values could show a difference, such as too few groups; `None` for other verdicts.
+    /// Reason why the test cannot show any difference, such as too few groups; `None` for other verdicts.
     fn unreachable(&self) -> Option<&str> {
         let is_open = matches!(self.verdict, Verdict::NoDifferenceShown { .. });
         self.out_of_reach.as_deref().filter(|_| is_open)
@@ -318,7 +319,7 @@ fn difference(
     (difference, unpaired)
 }
 
-/// Adjusts and decides the tested pairs together.
+/// Applies Holm's procedure to the tested pairs, and sets their adjusted p values and verdicts.
 fn decide_together(pairs: &mut [Pair<'_>]) {
     let tested = pairs.iter();
     let tested = tested.filter_map(|pair| pair.difference.as_ref().ok().cloned());

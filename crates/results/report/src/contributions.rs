@@ -5,7 +5,7 @@ use taceva_metrology::budget::{Budget, Source};
 use crate::figure::{Anchor, Area, Axes, Canvas, Figure, Ink, Label, Panel, Scale, Stroke, short};
 use crate::number::numeral;
 
-/// Least and greatest width for one bar with its margins.
+/// Least and greatest width of the plotting area, in canvas units.
 const PLACE: [f64; 2] = [240.0, 640.0];
 /// Half of the width of a bar, as a share of its space.
 const HALF: f64 = 0.3;

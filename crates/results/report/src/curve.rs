@@ -22,14 +22,14 @@ pub struct CurveAxis {
     pub unit: String,
 }
 
-/// Requested figures of a curve.
+/// Request for figures of a curve, such as bands, predictions and detection limits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CurveRequest {
     /// Coverage probability of confidence bands, prediction bands and intervals of inverse predictions, 0 to 1.
     pub p: f64,
     /// Reference values at which the confidence band and the prediction band of the curve are computed.
     pub at: Vec<f64>,
-    /// Number of averaged new readings.
+    /// Number of new readings whose mean is predicted or inverted.
     pub readings: u32,
     /// True for a simultaneous confidence band over all reference values.
     pub is_simultaneous: bool,
@@ -77,9 +77,9 @@ pub struct CurveFigure {
     pub value: Option<f64>,
     /// Ends of the band or interval; `None` if undefined.
     pub ends: Option<[f64; 2]>,
-    /// Standard uncertainty.
+    /// Standard uncertainty of the value; `None` if not computed.
     pub u: Option<f64>,
-    /// Degrees of freedom.
+    /// Degrees of freedom of `u`; `None` if not computed.
     pub freedom: Option<f64>,
     /// Unit of the value.
     pub unit: String,

@@ -7,7 +7,7 @@ use taceva_core::shown;
 use taceva_metrics::{Standing, plane_of};
 use taceva_results::{ResultsError, Subject};
 
-/// Severity in results for a fault that ends the skill at no severity.
+/// Severity that a result states if a fault ends the skill at no severity.
 pub(crate) const NEVER: u8 = 6;
 /// Schema of the results; a minor version may follow: `taceva.stress/1.3`.
 const SCHEMA: &str = "taceva.stress/1";
@@ -67,7 +67,7 @@ pub(crate) struct FaultScores {
     pub(crate) severities: Vec<SeverityScores>,
     pub(crate) unreached: Vec<Unreached>,
     pub(crate) breaks_at: BTreeMap<String, Option<u8>>,
-    /// Added error minus the added error of the reference model; empty without a reference model.
+    /// Error that the fault adds, minus the error that it adds to the reference model, by channel. Empty without a reference model.
     #[serde(default)]
     pub(crate) difference: BTreeMap<String, ErrorDifference>,
 }
@@ -152,7 +152,7 @@ impl FaultResult {
         faults.filter(|fault| !fault.breaks_at.is_empty())
     }
 
-    /// Mean over the faults of the least severity without shown skill; `None` if it is unknown for a fault.
+    /// Least severity at which no skill is shown, as the mean over the faults; `None` if it is unknown for a fault.
     pub(crate) fn skill_end(&self, channel: &str) -> Option<f64> {
         let ends = self.scored().map(|fault| {
             let end = fault.breaks_at.get(channel).copied().flatten();
@@ -163,7 +163,7 @@ impl FaultResult {
         (count > 0.0).then(|| ends.iter().sum::<f64>() / count)
     }
 
-    /// Standing of the numbers of a channel. Without skill, faults cannot add to the error of the channel, so the numbers have no meaning.
+    /// Standing of the values of a channel in verdicts. Without skill, faults cannot add to the error of the channel, so the values have no meaning.
     pub(crate) fn standing(&self, channel: &str) -> Standing {
         let skill = self.clean.get(channel).map(|of| of.skill);
         match skill.map(|skill| (skill.value, skill.ci95)) {

@@ -24,7 +24,7 @@ pub use style::FigureStyle;
 pub use svg::STYLE;
 pub(crate) use words::{axis_label, directed, middle_cut, short};
 
-/// Finished figure.
+/// Figure with marks on a canvas, title, caption and description.
 #[derive(Clone, Debug)]
 pub struct Figure {
     /// Name for files and links: `sensitivity`.

@@ -32,7 +32,7 @@ use crate::results::Study;
 
 /// All figures with data in `studies`, in report order.
 ///
-/// Figures of samples require the samples.
+/// Figures that draw samples need studies with a table of samples.
 pub fn figures(studies: &[Study]) -> Vec<Figure> {
     figures_for(studies, &FigureStyle::default())
 }

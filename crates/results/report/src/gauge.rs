@@ -223,7 +223,7 @@ impl GaugeStudies {
 }
 
 impl ChannelGauge {
-    /// Sentences with the size of the study, the number of distinct categories, and the AIAG class.
+    /// Sentences with the size of the gauge study, the number of distinct categories, and the AIAG class.
     fn summary(&self) -> Vec<String> {
         let report = &self.report;
         let parts = match report.design {
@@ -264,7 +264,7 @@ impl ChannelGauge {
         [size, ndc].into_iter().chain(band).collect()
     }
 
-    /// Remarks on the study, without full stops at the end.
+    /// Remarks on the gauge study, without full stops at the end.
     fn remarks(&self) -> Vec<String> {
         let flags = self.report.flags.iter().map(ToString::to_string);
         let left_out = (self.rows_left_out > 0).then(|| {

@@ -29,7 +29,7 @@ pub(crate) struct Scene {
 }
 
 impl Light {
-    /// Scenes of `score`; empty for other metrics, planes, and results without scenes.
+    /// Scenes of a `score` of lighting robustness; empty for metrics other than lighting robustness, and for results without scenes.
     pub(crate) fn of(score: &Score) -> Light {
         let found = score.variant("scenes").filter(|_| score.metric == METRIC);
         let scenes = match found.map(|variant| &variant.value) {
@@ -84,7 +84,8 @@ impl Light {
     }
 }
 
-/// Effect of light on each study, regardless of standing: the texts of `errors` and `low_stimulus` after its name. Empty for other metrics.
+/// Effect of light on each study, regardless of standing: the texts of `errors` and `low_stimulus` after its name. Empty for metrics other than
+/// lighting robustness.
 pub(crate) fn words(studies: &[Study], names: &[String], metric: &str, channel: &str) -> String {
     let of_one = |(study, name): (&Study, &String)| {
         let light = Light::of(study.score(metric, channel)?);

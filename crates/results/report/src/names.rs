@@ -3,7 +3,7 @@
 use crate::figure::short;
 use crate::results::Study;
 
-/// Name of a sensor that a result or a map does not state.
+/// Sensor name in results and maps that state none.
 const UNKNOWN: &str = "unknown";
 
 /// Names of the studies, made distinct if sensors share a name. Several results without a sensor are `result 1`, `result 2`.

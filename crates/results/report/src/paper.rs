@@ -14,7 +14,7 @@ use beside::SENSORS;
 /// Tables of a run in the layout of the TacEva study.
 ///
 /// # Units
-/// As the study prints them: mm, N, mm/N, MP, Hz; robustness to lighting in percent.
+/// Units of the study: mm, N, mm/N, megapixels (MP) and Hz; robustness to lighting in percent.
 ///
 /// ```
 /// use taceva_report::paper_form;
@@ -27,13 +27,13 @@ pub struct PaperForm {
     pub tables: Vec<(String, Table)>,
     /// Tables without any value, each with the reason.
     pub absent: Vec<(String, String)>,
-    /// Published numbers of figures, next to results of this program, each with the name of the figure: `figure-3c`.
+    /// Published values of figures, next to results of this program, each with the name of the figure: `figure-3c`.
     pub figures: Vec<(String, Table)>,
-    /// Contradictions in the study, one sentence each.
+    /// Contradictions in the TacEva study, one sentence each.
     pub contradictions: Vec<String>,
 }
 
-/// Tables I to V of the study and the numbers of its figures, for `studies`. Sensors of the study come first, in the order of the study.
+/// Tables I to V of the TacEva study and the numbers of its figures, for `studies`. Sensors of the study come first, in the order of the study.
 pub fn paper_form(studies: &[Study]) -> PaperForm {
     let ordered = in_order(studies);
     let scores = ScoreTable::of(&ordered);
@@ -53,7 +53,7 @@ pub fn paper_form(studies: &[Study]) -> PaperForm {
     form
 }
 
-/// Studies, with the sensors of the paper first.
+/// Studies, with the sensors of the TacEva study first.
 fn in_order(studies: &[Study]) -> Vec<Study> {
     let place = |study: &Study| {
         let known = SENSORS.iter().position(|name| *name == study.sensor);
@@ -79,8 +79,8 @@ impl PaperForm {
         out
     }
 
-    /// Figures of the study as Markdown: drawn figures with caption and published numbers, other figures with the reason. Images are SVG files next
-    /// to the text.
+    /// Figures of the TacEva study as Markdown: drawn figures with caption and published numbers, other figures with the reason. Images are SVG
+    /// files next to the text.
     pub fn markdown_of(&self, figures: &StudyFigures) -> String {
         let mut out = String::new();
         for figure in &figures.drawn {

@@ -3,7 +3,7 @@
 use taceva_core::{Date, Instrument, Traceability};
 use taceva_metrology::budget::Certificate;
 
-/// The only certificate of the references of `channel`, for labels of `recorded_on`.
+/// Single certificate of the instruments that measured the labels of `channel`. `recorded_on` is the date of the labels, if known.
 ///
 /// ```
 /// use taceva_core::{Instrument, Traceability};

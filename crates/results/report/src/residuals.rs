@@ -4,7 +4,7 @@ use taceva_core::shown;
 use taceva_metrology::budget::{Components, Residuals};
 use taceva_results::Samples;
 
-/// Variance components of the residuals of `channel` in one part of the protocol, grouped by `column`.
+/// Variance components of the residuals of `channel` in the protocol phase `part`, grouped by `column`.
 ///
 /// ```
 /// use taceva_results::Samples;

@@ -27,9 +27,9 @@ use taceva_results::{
 
 use crate::faults::FaultResult;
 
-/// Text in the method of an interval that leaves out groups of the split.
+/// Text in the method of an interval by groups of the split.
 pub(crate) const BY_GROUP: &str = " by group";
-/// Text in the method of an interval that leaves out contact points, or clusters of many contact points.
+/// Text in the method of an interval by contact points, or by clusters of many contact points.
 pub(crate) const BY_POINT: &str = " by point_id";
 /// Definition of published numbers whose source states no definition.
 pub(crate) const PUBLISHED: &str = "published";
@@ -100,7 +100,7 @@ pub struct Made {
     pub group: Option<String>,
     /// Settings of the devices that made the recording, by name: `force_rate_hz`.
     pub devices: BTreeMap<String, String>,
-    /// Digest of the samples, for numbers of a bundle in a catalogue.
+    /// Digest of the samples, for values from a bundle in a catalogue.
     pub samples_digest: Option<String>,
 }
 
@@ -255,7 +255,7 @@ impl Study {
         reads && draws && self.trainings(score).is_none()
     }
 
-    /// Column or kind of the groups that intervals leave out; `None` if they leave out contact points or samples.
+    /// Column or kind of the groups by which intervals are computed; `None` for intervals by contact point or by sample.
     pub(crate) fn clustered_by(&self) -> Option<&str> {
         let methods = self
             .scores

@@ -22,7 +22,7 @@ use taceva_results::{Interval, ScoreLine};
 /// Scores of studies side by side.
 #[derive(Clone, Debug)]
 pub struct ScoreTable {
-    /// Names of the studies, in their order.
+    /// Names of the studies, in the given order.
     pub names: Vec<String>,
     /// Sample origin of each study: `recorded`, `simulated`, `synthetic`, `published`, `unknown` or `several`.
     pub sources: Vec<String>,
@@ -40,7 +40,7 @@ pub struct ScoreTable {
 pub struct ScoreRow {
     /// Metric, with an optional variant: `mae`, `r_spatial.within`.
     pub metric: String,
-    /// Channel or plane.
+    /// Channel or plane of the score, such as `Fz` or `Fxy`.
     pub channel: String,
     /// Unit of all cells.
     pub unit: Unit,
@@ -61,9 +61,9 @@ pub struct ScoreCell {
     pub ends: Option<[f64; 2]>,
     /// Method of the interval; `None` without an interval.
     pub method: Option<String>,
-    /// Number of groups of the split that the interval leaves out; `None` for an interval over contact points.
+    /// Number of groups of the split by which the interval is computed; `None` for an interval by contact point.
     pub groups: Option<usize>,
-    /// Number of clusters of contact points that the interval leaves out; `None` for an interval over groups or independent samples.
+    /// Number of clusters of contact points by which the interval is computed; `None` for an interval by group or by independent sample.
     pub points: Option<usize>,
     /// Degrees of freedom of Student's t for the interval, if the result states them.
     pub degrees_of_freedom: Option<f64>,
@@ -75,7 +75,7 @@ pub struct ScoreCell {
     pub standing: Standing,
     /// Share of predictions beyond the bounds of the model, if known.
     pub bounded_share: Option<f64>,
-    /// True if significantly better than all other cells of the row in verdicts, at 5 % after Holm's adjustment.
+    /// True if the value is significantly better than all other cells of the row in verdicts, at 5 % after Holm's adjustment.
     pub is_best: bool,
 }
 
@@ -148,7 +148,7 @@ impl ScoreTable {
     }
 }
 
-/// Enters the number of study `at` into its row.
+/// Enters the score `line` of the study at position `at` into its row.
 fn enter(line: &ScoreLine<'_>, at: usize, studies: &[Study], rows: &mut Vec<ScoreRow>) {
     let is_mine = |row: &ScoreRow| {
         let is_named = row.metric == line.name && row.channel == line.channel;

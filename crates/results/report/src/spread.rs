@@ -6,7 +6,7 @@ use taceva_metrics::plane_axes;
 use crate::number::{numeral, spaced};
 use crate::results::Study;
 
-/// Metrics whose values depend on label spread, each with the part of the protocol that contains the labels.
+/// Metrics whose values depend on label spread, each with the protocol phase that contains the labels.
 const OF_LABELS: [(&str, &str); 11] = [
     ("agreement", CALIBRATION),
     ("mae", CALIBRATION),
@@ -25,8 +25,8 @@ const CALIBRATION: &str = "calibration";
 /// Ratio of spreads above which a difference is reported.
 const ALIKE: f64 = 2.0;
 
-/// Remark on the labels of the studies at `which`: ` (their labels differ in spread: ViTacTip 0.047 N to GelSightWM 0.174 N)`, and on another order by R². Empty
-/// if label spreads differ by at most a factor of two.
+/// Remark on the labels of the studies at `which`: ` (their labels differ in spread: ViTacTip 0.047 N to GelSightWM 0.174 N)`. Also states if R²
+/// orders the studies otherwise. Empty if label spreads differ by at most a factor of two.
 pub(crate) fn words(
     studies: &[Study],
     names: &[String],
@@ -92,8 +92,8 @@ pub(crate) fn note(studies: &[Study], names: &[String], scores: &[(&str, &str)])
     })
 }
 
-/// Name of the compared labels and range of their spreads, such as `labels` and `ViTacTip 0.047 N to GelSightWM 0.174 N`. `None` up to a factor of two. Uses
-/// `labels of calibration` if the part of the metric has no samples.
+/// Name of the compared labels and range of their spreads, such as `labels` and `ViTacTip 0.047 N to GelSightWM 0.174 N`. `None` up to a factor of
+/// two. Uses `labels of calibration` if a study has no samples of the metric's phase.
 fn range(
     studies: &[Study],
     names: &[String],
@@ -142,8 +142,8 @@ fn spreads<'a>(
     (!found.is_empty()).then_some(found)
 }
 
-/// Standard deviation of the labels of a channel in a part of the protocol; for a plane, the mean over both axes. Without samples of the calibration,
-/// computed from its scores as RMSE / √(1 − R²).
+/// Standard deviation of the labels of a channel in the protocol phase `part`; for a plane, the mean over both axes. For a calibration without
+/// samples, RMSE / √(1 − R²) of the scores.
 fn spread(study: &Study, part: &str, channel: &str) -> Option<f64> {
     let Some(axes) = plane_axes(channel) else {
         return of_channel(study, part, channel);
@@ -162,7 +162,7 @@ fn of_channel(study: &Study, part: &str, channel: &str) -> Option<f64> {
     found.or_else(|| of_scores().filter(|_| part == CALIBRATION))
 }
 
-/// Standard deviation of the labels of a channel in a part of the protocol; `None` without samples, or if all labels are equal.
+/// Standard deviation of the labels of a channel in the protocol phase `part`; `None` without samples, or if all labels are equal.
 fn of_samples(study: &Study, part: &str, channel: &str) -> Option<f64> {
     let samples = study.samples.as_ref()?;
     let labels = samples.channel(channel)?;
@@ -185,7 +185,7 @@ fn of_samples(study: &Study, part: &str, channel: &str) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// A study with root mean square errors and R² of shear, and a constant far from its labels.
+    /// Study with root mean square errors and R² of shear. The skill uses a constant far from the labels.
     fn study(rmse: f64, r2: f64) -> Study {
         let of_channel = |metric: &str, value: f64, unit: &str| {
             let channels = ["Fx", "Fy", "Fxy"]

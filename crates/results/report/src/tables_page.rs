@@ -36,7 +36,7 @@ pub struct TablesPage {
 /// Section of a page.
 #[derive(Clone, Debug)]
 pub struct PageSection {
-    /// Single word for links.
+    /// Id of the section for links; a single word.
     pub id: &'static str,
     /// Title of the section.
     pub title: &'static str,

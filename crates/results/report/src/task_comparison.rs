@@ -47,7 +47,7 @@ pub use render::TASK_COMPARISON_SCHEMA;
 /// ```
 #[derive(Clone, Debug)]
 pub struct TaskComparison {
-    /// Results in their order.
+    /// Compared results, in the given order.
     results: Vec<TaskResult>,
     /// Metrics in the request; empty for all.
     metrics: Vec<String>,
@@ -67,7 +67,7 @@ pub struct TaskAnswer {
     pub score: String,
     /// Unit of both scores; empty for a pure number.
     pub unit: String,
-    /// Positions of both results.
+    /// Positions of both results in the list of results.
     pub sides: Sides<usize>,
     /// Both values; `None` for an undefined value.
     pub values: Sides<Option<f64>>,
@@ -176,7 +176,7 @@ fn pairs_of<'a>(
     pairs
 }
 
-/// Answer before the family is decided, with the reason why results of the same labels are not compared cluster by cluster.
+/// Answer before Holm's procedure, with the reason why results of the same labels are not compared cluster by cluster.
 fn answer(subjects: Sides<Subject<'_>>, seed: u64) -> (TaskAnswer, Option<String>) {
     let Sides { a, b } = subjects;
     let (difference, note) = match barred(subjects) {
@@ -201,7 +201,7 @@ fn answer(subjects: Sides<Subject<'_>>, seed: u64) -> (TaskAnswer, Option<String
     (answer, note)
 }
 
-/// Reason why two scores are not ranked: another definition, no value, or no more than a constant.
+/// Reason why two scores are not ranked: different definitions, no value, or not better than a constant.
 fn barred(subjects: Sides<Subject<'_>>) -> Option<String> {
     let Sides { a, b } = subjects;
     let [own, other] = [a, b].map(|side| side.task.meaning(side.score));
@@ -239,7 +239,7 @@ fn unpaired(subjects: Sides<Subject<'_>>) -> Result<Difference, String> {
     by_intervals(both).map_err(|error: ComparisonError| error.to_string())
 }
 
-/// Decides all tests of a task together, and finds the better side of each.
+/// Applies Holm's procedure to all tests of a task, and finds the better side of each test.
 fn decide_together(answers: &mut [TaskAnswer], results: &[TaskResult]) {
     let tested = answers.iter();
     let tested = tested.filter_map(|answer| answer.difference.as_ref().ok().cloned());

@@ -65,7 +65,7 @@ pub(crate) struct ResultScore {
     pub(crate) unit: Option<String>,
     definition: String,
     pub(crate) estimate: ResultEstimate,
-    /// Score without each cluster; empty without a state.
+    /// Scores that leave out one cluster each; empty without a state.
     #[serde(skip)]
     pub(crate) left_out: Vec<LeftOut>,
 }
@@ -129,7 +129,7 @@ impl TaskResult {
         })
     }
 
-    /// Result called `name` with the scores of `report`, and the scores without each cluster.
+    /// Result called `name` with the scores of `report`, and with the scores that leave out one cluster each.
     ///
     /// # Errors
     /// [`ResultsError`] if a number of the report does not fit into JSON.
@@ -144,7 +144,7 @@ impl TaskResult {
         Ok(result)
     }
 
-    /// The same result with the scores without each cluster of `other`, if both results have the same tables and scores.
+    /// Adds the scores that leave out one cluster each from `other`, if both results have the same tables and scores.
     #[must_use]
     pub fn with_clusters_of(self, other: TaskResult) -> TaskResult {
         let is_same = self.tables == other.tables && numbers(&self) == numbers(&other);
@@ -258,7 +258,7 @@ impl ResultTask {
             })
     }
 
-    /// Score of a metric and variant; `None` if there is no such score.
+    /// Score of the same metric and variant as `of`; `None` if there is no such score.
     pub(crate) fn find(&self, of: &ResultScore) -> Option<&ResultScore> {
         let mut scores = self.scores.iter();
         scores.find(|score| score.metric == of.metric && score.variant == of.variant)
@@ -328,7 +328,7 @@ impl ResultScore {
         }
     }
 
-    /// Standing of the score. The score counts if its whole interval is better than the best constant, or if no constant has a score.
+    /// Standing of the score in verdicts. The score counts if its whole interval is better than the best constant, or if no constant has a score.
     pub(crate) fn standing(&self) -> Standing {
         let Some(constant) = self.estimate.of_constant else {
             return Standing::Counts;

@@ -50,7 +50,8 @@ pub(crate) fn best(
     values.reduce(|best, next| if leads(next.1, best.1) { next } else { best })
 }
 
-/// Tie of the studies in verdicts with exactly equal best values. `None` for a single best study, or a score without a better direction.
+/// Tie of the studies that take part in verdicts and have exactly equal best values. `None` for a single best study, or a score without a better
+/// direction.
 pub(crate) fn tie(studies: &[Study], names: &[String], metric: &str, channel: &str) -> Option<Tie> {
     let named = studies.iter().zip(names).enumerate();
     let rivals = named.filter_map(|(at, (study, name))| {
@@ -154,8 +155,8 @@ fn gratings(tied: &[&Rival<'_>], best: f64, channel: &str) -> String {
     )
 }
 
-/// Addition for predictions that always equal the spacing of a training board: `, which is exactly right among 16 learnt boards at least 0.1 mm apart`. `None`
-/// without predictions, or if a prediction is not a training spacing.
+/// Clause for predictions that always equal the spacing of a training board: `, which is exactly right among 16 learnt boards at least 0.1 mm
+/// apart`. `None` without predictions, or if a prediction is not a training spacing.
 fn meaning(samples: &Samples, kind: &str, tolerance_mm: f64) -> Option<String> {
     let nanometres = |mm: f64| (mm * NM).round();
     let known: BTreeSet<u64> = boards(samples, kind)

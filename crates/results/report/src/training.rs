@@ -1,4 +1,4 @@
-//! Training behind the results of several sensors: number of contact places, and different models.
+//! Training behind the results of several sensors: number of contact points, and different models.
 
 use std::collections::BTreeSet;
 
@@ -8,10 +8,11 @@ use taceva_metrics::catalogue;
 use crate::names::{listed, names};
 use crate::results::Study;
 
-/// Least number of contact places for a verdict on sensors. Below this number, twice as many places halve the errors, so a comparison reflects the training.
+/// Least number of contact points for a verdict on sensors. Below this number, twice as many points halve the errors, so a comparison reflects the
+/// training.
 pub(crate) const LEAST_PLACES: usize = 200;
 
-/// Number of contact places of calibration samples without predictions, which fitted or selected the model; `None` if unknown.
+/// Number of contact points of calibration samples without predictions, which fitted or selected the model; `None` if unknown.
 fn places(study: &Study) -> Option<usize> {
     let is_training = |(part, count): &(String, u64)| part == "train" && *count > 0;
     let samples = study.samples.as_ref()?;
@@ -31,23 +32,23 @@ fn places(study: &Study) -> Option<usize> {
     (!points.is_empty()).then_some(points.len())
 }
 
-/// Least number of contact places among several sensors; `None` if sufficient for a verdict on sensors.
+/// Least number of contact points among several sensors; `None` if sufficient for a verdict on sensors.
 fn too_few(studies: &[Study]) -> Option<usize> {
     let sensors: BTreeSet<&str> = studies.iter().map(|study| study.sensor.as_str()).collect();
     let fewest = studies.iter().filter_map(places).min()?;
     (sensors.len() > 1 && fewest < LEAST_PLACES).then_some(fewest)
 }
 
-/// True if `metric` gives no verdict on sensors, because its models were trained at too few places.
+/// True if `metric` gives no verdict on sensors, because its models were trained at too few contact points.
 pub(crate) fn is_demonstration(studies: &[Study], metric: &str) -> bool {
     let reads = catalogue::find(metric).is_some_and(|metric| metric.reads_predictions());
     reads && too_few(studies).is_some()
 }
 
-/// Reason why a metric of a demonstration has no verdict.
+/// Reason for no verdict on a metric whose models were trained at too few contact points.
 pub(crate) const NO_VERDICT: &str = "this demonstration gives no verdict on sensors";
 
-/// Sentence for pages whose models were trained at too few places.
+/// Sentence for pages whose models were trained at too few contact points.
 pub(crate) fn demonstration(studies: &[Study]) -> Option<String> {
     let fewest = too_few(studies)?;
     Some(format!(
@@ -99,7 +100,7 @@ mod tests {
     use std::fmt::Write as _;
     use taceva_results::Samples;
 
-    /// A study whose model was fitted on `places` contact places.
+    /// A study whose model was fitted on `places` contact points.
     fn study(sensor: &str, places: usize, settings: &[(&str, &str)]) -> Study {
         let mut table = String::from("sample,protocol,point_id,Fz,Fz_predicted\n");
         for place in 0..places {
@@ -146,7 +147,7 @@ mod tests {
         assert_eq!(demonstration(&opened), None);
     }
 
-    /// A study of a model with skill, fitted on `places` contact places.
+    /// A study of a model with skill, fitted on `places` contact points.
     fn scored(sensor: &str, places: usize, mae: f64) -> Study {
         let text = format!(
             r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "x"}}, "metrics": {{

@@ -1,4 +1,4 @@
-//! Tests of the page over its socket: accepted and rejected clients, and slow clients that nothing waits for.
+//! Tests of the page over its socket: accepted, rejected and slow clients. Slow clients delay no other client.
 
 mod access;
 mod display;

@@ -55,7 +55,7 @@ pub enum AcceptError {
     OutsideInterval {
         /// Metric, with its variant.
         metric: String,
-        /// Channel or plane.
+        /// Channel or plane of the score, such as `Fz` or `Fxy`.
         channel: String,
         /// Symbol of the unit.
         unit: &'static str,
@@ -180,7 +180,7 @@ impl LimitCheck {
         }
     }
 
-    /// Sets the word and reason of the check from a decision by a rule.
+    /// Sets the verdict and the reason of the check from a decision by a rule.
     fn take_word(&mut self, interval: &LimitInterval, counts_conditional: bool) {
         let Some(decision) = &self.decision else {
             return;

@@ -10,7 +10,7 @@ use crate::results::Study;
 /// Confidence interval of a score for a limit check.
 #[derive(Clone, Debug)]
 pub(super) struct LimitInterval {
-    /// Both ends; `None` if the score has no interval.
+    /// Both ends of the interval; `None` if the score has no interval.
     pub(super) ends: Option<[f64; 2]>,
     /// Number of trainings whose variance the interval includes; 0 if none.
     pub(super) trainings: usize,

@@ -21,7 +21,7 @@ pub struct LimitsFile {
     pub name: String,
     /// Default rule settings for limits without their own, since version 2.
     decision: Option<RuleSettings>,
-    /// Limits, in order.
+    /// Limits, in the order of the file.
     #[serde(default, rename = "limit")]
     pub limits: Vec<Limit>,
     /// True if a conditional pass counts as met.
@@ -35,7 +35,7 @@ pub struct LimitsFile {
 pub struct Limit {
     /// Metric, with an optional variant: `mae`, `hysteresis.ratio`.
     pub metric: String,
-    /// Channel or plane.
+    /// Channel or plane of the score, such as `Fz` or `Fxy`.
     pub channel: String,
     /// Unit of the limit; must equal the unit of the score.
     pub unit: String,
@@ -48,11 +48,11 @@ pub struct Limit {
     pub whole_interval: bool,
     /// Name of the rule for this limit, since version 2.
     rule: Option<String>,
-    /// Width of the guard band as a multiple of the expanded uncertainty, for `guarded`.
+    /// Width of the guard band as a multiple of the expanded uncertainty, for the rule `guarded`.
     r: Option<f64>,
-    /// Least probability of conformity, for `probability`.
+    /// Least probability of conformity, for the rule `probability`.
     p_conformity: Option<f64>,
-    /// Greatest expanded uncertainty in the unit of the score, for `shared`.
+    /// Greatest expanded uncertainty in the unit of the score, for the rule `shared`.
     most_uncertainty: Option<f64>,
     /// Coverage probability of the expanded uncertainty, 0 to 1.
     coverage: Option<f64>,
@@ -145,7 +145,7 @@ impl LimitsFile {
         Ok(file)
     }
 
-    /// Same limits, with conditional passes counted as met.
+    /// Returns these limits with conditional passes counted as met.
     ///
     /// ```
     /// use taceva_report::LimitsFile;

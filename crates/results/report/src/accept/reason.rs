@@ -36,7 +36,7 @@ pub(super) fn by_value_only(limit: &Limit, ends: Option<[f64; 2]>) -> Option<Str
         .then(|| "met by the value only: its interval crosses the limit".to_owned())
 }
 
-/// Reason why a rule gives no pass, or a remark that a pass ignores the interval.
+/// Reason why the decision is not a pass, or a remark that a pass ignores the interval.
 pub(super) fn of_decision(
     limit: &Limit,
     decision: &Decision,
@@ -68,7 +68,7 @@ pub(super) fn acceptance(decision: &Decision) -> Option<String> {
     Some(bounds(limits.least(), limits.most()))
 }
 
-/// Text between a decision rule and the effect of its guard band: the scale of the band.
+/// Text before the effect of a guard band on a logarithmic scale.
 pub(super) const ON_SCALE: &str = ", on the logarithmic scale of the interval: ";
 
 /// Effect of a guard band on the limits, such as `the limit divided by 1.57`. `None` without a guard band, or if its width is in the unit of the

@@ -18,8 +18,9 @@ use crate::short_digests::short_digests;
 use crate::table::{Cell, Column, Table};
 use taceva_results::{SampleChannel, not_measured};
 
-/// Schema of an acceptance as JSON. 1.1: each finding states the better direction. 1.2: the number of trainings in its interval. 1.3: uncertainty,
-/// probability of conformity, acceptance limit, rule and verdict; risks among units of one process; certificates; accepted edits.
+/// Schema of an acceptance as JSON. Version 1.1 adds the better direction of each finding, and 1.2 the number of trainings in its interval. Version
+/// 1.3 adds uncertainty, probability of conformity, acceptance limit, rule, verdict, risks among units of one process, certificates and accepted
+/// edits.
 pub const ACCEPTANCE_SCHEMA: &str = "taceva.acceptance/1.3";
 
 /// Findings for one sensor unit, with the facts of its data sheet.
@@ -43,7 +44,7 @@ impl Acceptance<'_> {
         self.findings.iter().all(|finding| finding.is_kept)
     }
 
-    /// True if the sensor fails. Without rules, one limit that is not met suffices; with rules, one fail or conditional fail.
+    /// True if the sensor fails: without rules, if a limit is not met; with rules, if a finding is a fail or a conditional fail.
     fn is_failed(&self) -> bool {
         let is_fail = |word: Word| matches!(word, Word::Fail | Word::ConditionalFail);
         let mut findings = self.findings.iter();
@@ -150,7 +151,7 @@ impl Acceptance<'_> {
         format!("{whole:#}\n")
     }
 
-    /// Data sheet of one page, HTML.
+    /// Data sheet on one page, as HTML.
     pub fn page(&self) -> String {
         let studies = std::slice::from_ref(self.study);
         let lead = html! { (badge(studies)) (self.verdict()) };
@@ -192,7 +193,8 @@ impl Acceptance<'_> {
         self.words_but_pass(|finding| !finding.is_kept)
     }
 
-    /// Counts of the words other than pass among findings for which `counts` is true, such as `1 conditional pass, 2 fail`; empty without rules.
+    /// Number of findings with each word except pass, such as `1 conditional pass, 2 fail`. Includes only findings accepted by `counts`. Empty
+    /// without rules.
     fn words_but_pass(&self, counts: fn(&LimitCheck) -> bool) -> String {
         let others = [
             Word::ConditionalPass,
@@ -209,7 +211,7 @@ impl Acceptance<'_> {
         words.join(", ")
     }
 
-    /// Serial number of the tested unit. If several numbers are joined by commas, only the numbers that samples name.
+    /// Serial number of the tested unit. From several numbers joined by commas, keeps the numbers that samples name.
     fn serial(&self) -> String {
         let serial = &self.study.serial;
         let known: Vec<&str> = serial.split(", ").collect();

@@ -34,9 +34,10 @@ r = 1.0
 coverage = 0.95
 "#;
 
-/// Limits file for [`super::LimitsFile::read`] with limits that `study` meets. Each headline score that takes part in verdicts and has a better
-/// direction gets one limit. The limit is a fifth worse than the value, or at the worse end of its interval if that is farther away. For R² and
-/// skill, 1 − value is a fifth larger at the limit. The rule is `guarded`, or `simple` if the interval is missing or leaves no room for a guard band.
+/// Limits file for [`super::LimitsFile::read`]. Each headline score of `study` that takes part in verdicts and has a better direction gets one
+/// limit, which the score meets. The limit is a fifth worse than the value, or at the worse end of its interval if that is farther away. For R² and
+/// skill, 1 − value is a fifth larger at the limit. The rule is `guarded`, or `simple` if the interval is missing or leaves no room for a guard
+/// band.
 ///
 /// ```
 /// use taceva_report::{LimitsFile, Study, accept, limits_template};
@@ -173,7 +174,7 @@ impl Bounds {
         decide(measured, &limits, &GUARDED).is_ok_and(|decision| decision.word.is_pass())
     }
 
-    /// Lines for the file.
+    /// Lines of the limit for the limits file.
     fn lines(&self) -> String {
         let line = |name: &str, end: Option<f64>| {
             end.map_or_else(String::new, |end| format!("{name} = {end:?}\n"))
@@ -188,12 +189,12 @@ fn is_below_one(score: &Score) -> bool {
     metric.is_some_and(|metric| metric.range == Range::BelowOne)
 }
 
-/// Text without line breaks, for a comment.
+/// Replaces line breaks of `text`, so that it fits in a comment of one line.
 fn line(text: &str) -> String {
     terminal(text).replace(['\n', '\r'], " ")
 }
 
-/// `number` rounded up to [`DIGITS`] digits.
+/// Rounds `number` up to [`DIGITS`] significant digits.
 fn upwards(number: f64) -> f64 {
     if number.abs() < f64::MIN_POSITIVE {
         return 0.0;

@@ -5,8 +5,8 @@ use taceva_metrology::budget::{Budget, Freedom, Method, Source};
 use super::BudgetReport;
 use crate::table::{Cell, Table};
 
-/// Columns of the table; `low` and `high` are the ends of the range of labels in the samples of a source. A row contains a source, a result, a
-/// correlation, an uncovered effect, or a warning.
+/// Columns of the table. A row contains a source, a result, a correlation, an uncovered effect, or a warning. `low` and `high` are the ends of the
+/// range of labels in the samples of a source.
 const COLUMNS: [&str; 17] = [
     "at",
     "row",
@@ -83,7 +83,7 @@ fn of_source<'a>(source: &'a Source, budget: &'a Budget) -> Entry<'a> {
     }
 }
 
-/// Rows of the value, its factors, and the Monte Carlo result.
+/// Rows of the value, its expanded uncertainty, the coverage factor and probability, and the Monte Carlo result.
 fn results(budget: &Budget) -> Vec<Entry<'_>> {
     let unit = budget.unit.as_str();
     let result = |name, value, unit| Entry {

@@ -9,7 +9,7 @@ use crate::budget_source::{
 use crate::escape::{terminal as line, toml_string as quoted};
 use crate::number::FormattedValue;
 
-/// Sources of the file. A source with a key that the user must complete is written as a comment.
+/// Uncertainty sources of the budget file. A source is written as a comment if the user must complete one of its keys.
 const SOURCES: [BudgetSource; 8] = [
     BIAS,
     BETWEEN,
@@ -24,7 +24,7 @@ const SOURCES: [BudgetSource; 8] = [
 /// Data for an initial budget file.
 #[derive(Clone, Copy, Debug)]
 pub struct BudgetTemplate<'a> {
-    /// Sensor of the result.
+    /// Name of the tested sensor.
     pub sensor: &'a str,
     /// Origin of the samples of the result.
     pub origin: &'a str,
@@ -36,14 +36,14 @@ pub struct BudgetTemplate<'a> {
     pub unit: &'a str,
     /// Value of the measurand for which the budget is computed, in `unit`.
     pub at: f64,
-    /// Measured figures.
+    /// Figures measured from the result.
     pub evidence: &'a Evidence,
-    /// Figures without a value, each with its reason.
+    /// Figures without a measured value, each with its reason.
     pub absent: &'a [Missing],
 }
 
 impl BudgetTemplate<'_> {
-    /// Text of the file, which `taceva budget` accepts unchanged.
+    /// Text of the budget file, which `taceva budget` accepts unchanged.
     pub fn text(&self) -> String {
         let at = format!("{} {}", self.at, self.unit);
         let mut out = format!(
@@ -80,7 +80,7 @@ impl BudgetTemplate<'_> {
         out + &remarks
     }
 
-    /// Other measured figure whose uncertainty includes the uncertainty of the measured `figure`; `None` without such a figure.
+    /// Measured figure that includes the uncertainty of `figure`; `None` without such a figure.
     fn holder(&self, figure: &str) -> Option<&'static str> {
         let is_measured = |figure: &str| self.evidence.figure(figure).is_some();
         let outer: &[BudgetSource] = match figure {
@@ -126,7 +126,7 @@ impl BudgetTemplate<'_> {
         ))
     }
 
-    /// Comments on effects that the `written` sources do not cover.
+    /// Comments on effects that the budget file `written` does not cover.
     fn remarks(&self, written: &str) -> String {
         let parsed = BudgetText::parse(written);
         let budgets = parsed.and_then(|text| text.budgets(self.evidence, None::<MonteCarlo>));

@@ -8,8 +8,8 @@ use super::{Published, Sensor};
 /// Definitions of this program that equal the definition of the same metric in the catalogue. Other definitions are not comparable.
 ///
 /// Success rates are excluded, because they depend on the number of spacings in a scene, and fewer spacings are easier to predict. Robustness over
-/// the surface is excluded, because its published definition is unclear: the study's table differs from half the sum of the numbers in the study's
-/// figure.
+/// the surface is excluded, because its published definition is unclear: the table of the TacEva study differs from half the sum of the numbers in
+/// its figure.
 const SAME: [&str; 6] = [
     "mae/1",
     "r2/1",
@@ -20,7 +20,7 @@ const SAME: [&str; 6] = [
 ];
 
 impl Sensor {
-    /// Published number of a metric and channel that is comparable with a number of `definition` and `unit`. `None` without a published number, or if
+    /// Published number of a metric and channel that is comparable with a value of `definition` and `unit`. `None` without a published number, or if
     /// its definition differs.
     pub fn published_alike(
         &self,

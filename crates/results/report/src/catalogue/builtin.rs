@@ -1,6 +1,6 @@
 //! Built-in catalogue files.
 
-/// Files by name. A test compares this list with the folder.
+/// Name and text of each catalogue file. A test compares this list with the folder.
 pub(super) const FILES: &[(&str, &str)] = &[
     ("9dtact.toml", include_str!("../../catalogue/9dtact.toml")),
     (

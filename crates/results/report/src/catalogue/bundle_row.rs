@@ -21,10 +21,11 @@ const PREFIX: &str = "sha256:";
 pub(crate) const DEPTH_NOTE: &str = "The level states how deep a number was verified when it was added. `files` and `form` compare bytes and seals. `scores` \
                                      computes it again from sums, and `predictions` from tables of truth and prediction. `model` predicts again on the \
                                      recording, and `fit` fits the model again.";
-/// Number of digits of a digest in names.
+/// Number of hexadecimal digits of a digest that names contain.
 const SHORT: usize = 8;
 
-/// Number of a bundle. The fields are the keys of a row in an entry. The struct gets no further field without a new version of the entries.
+/// Measured value from a bundle. The fields are the keys of a row in an entry. The struct gets no further field without a new version of the
+/// entries.
 ///
 /// ```
 /// use taceva_report::catalogue::{Origin, Sensor};
@@ -60,14 +61,14 @@ pub struct Measured {
     /// Method of the interval: `jackknife by point_id, G=32`; `None` without an interval.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub method: Option<String>,
-    /// Unit of number and interval.
+    /// Unit of the number and of its interval.
     pub unit: String,
-    /// Number of samples.
+    /// Number of samples behind the number.
     pub n: u64,
     /// Number of clusters behind the interval; `None` if unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clusters: Option<u64>,
-    /// Definition: `mae/1`.
+    /// Definition of the metric: `mae/1`.
     pub definition: String,
     /// Protocol of the presses: `scene sha256:…`; `None` without a scene.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -96,7 +97,7 @@ pub struct Measured {
     pub traceability: Vec<String>,
 }
 
-/// Table of an entry for numbers of bundles. This type gets no further variant: samples are measured, not measured, or of unknown origin.
+/// Table of an entry for values from bundles. This type gets no further variant: samples are measured, not measured, or of unknown origin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
     /// `[[measured]]`: samples that a real sensor recorded.
@@ -148,7 +149,7 @@ impl Origin {
     }
 }
 
-/// Invalid value of a row, with the key and the accepted values.
+/// Invalid value of a row of an entry, with the key and the accepted values.
 pub(super) struct RowFault {
     pub(super) what: &'static str,
     pub(super) found: String,
@@ -268,7 +269,7 @@ pub fn rows_text(rows: &[Measured]) -> Result<String, toml::ser::Error> {
     toml::to_string(&tables)
 }
 
-/// Line numbers at which the rows of the table `origin` begin in the text of an entry. Empty if the table has another TOML syntax.
+/// Line numbers at which the rows of the table `origin` begin in the text of an entry. Empty if the rows are not written as `[[table]]`.
 ///
 /// ```
 /// use taceva_report::catalogue::{Origin, row_lines};

@@ -1,4 +1,4 @@
-//! Converts numbers of bundles to studies, and to sensors that `choose` considers.
+//! Converts values from bundles to studies, and to sensors that `choose` considers.
 
 use std::collections::BTreeMap;
 
@@ -9,11 +9,11 @@ use super::bundle_row::{Measured, Origin, short};
 use super::entry::Sensor;
 use crate::results::{Made, Study, by_published_r2};
 
-/// Interval method for rows without a stated method.
+/// Method of an interval whose row states no method.
 const AS_STATED: &str = "as the bundle states it";
 
 impl Sensor {
-    /// Converts published numbers, then the numbers of each bundle, to results. Omits the published part if the entry has only bundles.
+    /// Converts published numbers, then the values from each bundle, to results. Omits published numbers if the entry has only values from bundles.
     pub fn studies(&self) -> Vec<Study> {
         let is_published = self.has_published() || !self.has_bundles();
         let published = is_published.then(|| self.as_study());
@@ -22,7 +22,8 @@ impl Sensor {
         published.into_iter().chain(of_bundles).collect()
     }
 
-    /// Numbers of each bundle as results, one for each of its studies. The name contains the origin, the depth of the verification, and the bundle.
+    /// Results of this sensor in bundles, one result for each study of a bundle. The name contains the origin, the depth of verification, and the
+    /// bundle.
     pub fn measured_studies(&self, origin: Origin) -> Vec<Study> {
         let mut bundles: BTreeMap<(&str, usize), Vec<&Measured>> = BTreeMap::new();
         for row in self.rows(origin) {
@@ -33,7 +34,7 @@ impl Sensor {
         studies.filter_map(|rows| study(&self.name, rows)).collect()
     }
 
-    /// One sensor for each study of each measured bundle, with the facts of this sensor and the numbers of the study instead of published numbers.
+    /// Copies of this sensor, one for each study of a measured bundle, with the numbers of the study instead of published numbers.
     pub fn measured_candidates(&self) -> Vec<Sensor> {
         let studies = self.measured_studies(Origin::Measured).into_iter();
         let candidates = studies.map(|study| Sensor {
@@ -49,7 +50,7 @@ impl Sensor {
     }
 }
 
-/// Numbers of one study of one bundle; `None` without rows.
+/// Values of one study in one bundle; `None` without rows.
 fn study(sensor: &str, rows: &[&Measured]) -> Option<Study> {
     let first = rows.first()?;
     let least = rows.iter().min_by_key(|row| row.depth())?;

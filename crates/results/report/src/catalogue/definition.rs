@@ -1,6 +1,6 @@
 //! Definitions that a published number must have to share a metric name, and thus a table column, with results of this program.
 
-/// Metrics, with their channel if it matters, and the definition of published numbers.
+/// Metrics, with their channel if the definition depends on it, and the definition of published numbers.
 const DEFINITIONS: &[(&str, &str)] = &[
     (
         "mae",
@@ -58,7 +58,7 @@ pub(super) fn of(metric: &str, channel: &str) -> Option<&'static str> {
     found.next().map(|(_, definition)| *definition)
 }
 
-/// True if a published number of `metric` may lack a definition: construction facts, which no verdict uses.
+/// True if a published number of `metric` may lack a definition. Only construction facts may, because no verdict uses them.
 pub(super) fn may_be_unstated(metric: &str) -> bool {
     metric == "intrinsic"
 }

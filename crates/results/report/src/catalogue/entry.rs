@@ -14,7 +14,7 @@ use crate::faults::FaultResult;
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sensor {
-    /// Version of the file: 2, or 1 without numbers of bundles.
+    /// Version of the file: 2, or 1 without values from bundles.
     pub(super) catalogue_version: u32,
     /// Name of the sensor.
     pub name: String,
@@ -26,13 +26,13 @@ pub struct Sensor {
     /// IMM (intensity mapping), MDM (marker displacement) or MFM (modality fusion) for a sensor with a camera; `magnetic`, `capacitive`, `resistive`
     /// or `optical` for taxels.
     pub mechanism: Vec<String>,
-    /// Shape of the sensor; `None` if unknown.
+    /// Shape of the sensor, such as `fingertip`; `None` if unknown.
     pub shape: Option<String>,
     /// True if no ambient light reaches the camera; `None` if unknown.
     pub opaque: Option<bool>,
     /// True if the gel has markers; `None` if unknown.
     pub markers: Option<bool>,
-    /// Remark on the product that the published numbers describe, if no source states the product.
+    /// Remark on the product behind the published numbers, such as its inference from a data sheet; `None` for no remark.
     pub identity: Option<String>,
     /// Limits of depth, force and radius; `None` if unknown.
     pub limits: Option<Limits>,
@@ -50,28 +50,28 @@ pub struct Sensor {
     /// Published numbers.
     #[serde(default, rename = "result", alias = "published")]
     pub results: Vec<Published>,
-    /// Numbers of bundles whose samples were recorded.
+    /// Values from bundles whose samples were recorded.
     #[serde(default)]
     pub measured: Vec<Measured>,
-    /// Numbers of bundles whose samples have no stated origin.
+    /// Values from bundles whose samples have no stated origin.
     #[serde(default)]
     pub unknown: Vec<Measured>,
-    /// Numbers of bundles whose samples are simulated or synthetic.
+    /// Values from bundles whose samples are simulated or synthetic.
     #[serde(default)]
     pub simulated: Vec<Measured>,
-    /// Digest of the samples behind `results`, if these are numbers of a bundle or of a result; `None` for published numbers.
+    /// Digest of the samples behind `results`, if these come from a bundle or a result; `None` for published numbers.
     #[serde(skip)]
     pub samples: Option<String>,
     /// Prediction errors on pictures or signals with faults; `None` if no fault was tested.
     #[serde(skip)]
     pub faults: Option<FaultResult>,
-    /// Unpublished numbers, each with the reason.
+    /// Metrics for which the sources state no number, each with the reason.
     #[serde(default)]
     pub missing: Vec<Missing>,
     /// Properties that the publication reports, each `yes`, `no` or `partial`. The key `source` has the id of the source.
     #[serde(default)]
     pub reported: BTreeMap<String, String>,
-    /// Applications in the evaluation of the sensor, by theme.
+    /// Applications in the evaluation of the sensor, by theme, such as `force`.
     #[serde(default)]
     pub applications: BTreeMap<String, Vec<String>>,
 }

@@ -14,12 +14,12 @@ pub struct Limits {
     /// Greatest normal force, in N.
     #[serde(rename = "Fz_max_N")]
     pub fz_max_n: f64,
-    /// Greatest distance of a contact from the centre, in mm.
+    /// Greatest distance of a contact from the centre of the sensing surface, in mm.
     pub radius_max_mm: f64,
 }
 
 impl Limits {
-    /// Channel, number, unit and definition of each limit.
+    /// Channel, value, unit and definition of each limit.
     pub(super) fn rows(&self) -> [(&'static str, f64, &'static str, &'static str); 3] {
         [
             (
@@ -58,7 +58,7 @@ pub(super) const SIZE: &str = "outer dimensions in the order of the source";
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Size {
-    /// Width, depth and height in mm in the order of the source; or a diameter and a length; or a diameter.
+    /// Dimensions in mm: width, depth and height in the order of the source, a diameter and a length, or only a diameter.
     pub mm: Vec<f64>,
     /// Id of the source.
     pub source: String,
@@ -86,7 +86,8 @@ impl Size {
         (self.mm.len() > 1).then(|| sides.fold(0.0, f64::max))
     }
 
-    /// Median of the three outer dimensions, in mm; a diameter counts as two dimensions. The sensor passes lengthwise through a square opening with this side.
+    /// Median of the three outer dimensions, in mm; a diameter counts as two dimensions. A square opening with this side admits the sensor
+    /// lengthwise.
     pub fn middle_mm(&self) -> Option<f64> {
         match self.mm[..] {
             [a, b, c] => Some(a.min(b).max(a.max(b).min(c))),

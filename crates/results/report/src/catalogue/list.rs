@@ -12,7 +12,7 @@ use crate::table::{Column, Direction, Table};
 pub(crate) const MECHANISMS: &str = "IMM: the camera maps intensity. MDM: the camera follows displacements of markers. MFM: the sensor fuses modalities. \
                                      Magnetic, capacitive, resistive and optical sensors have taxels and no camera.";
 
-/// Table with one row for each sensor. A note names the studies of sensors. A column counts the numbers of bundles, if there are any.
+/// Table with one row for each sensor. A note names the studies of sensors. A column counts the values from bundles, if there are any.
 pub fn list(sensors: &[Sensor]) -> Table {
     let error = |name: &str, unit: &str| {
         let column = Column::new(name).unit(unit);
@@ -173,7 +173,7 @@ fn offers(sensor: &Sensor) -> Vec<[String; 7]> {
     size.chain(prices).chain(ways).collect()
 }
 
-/// Row of a number of a bundle, with the columns of [`details`].
+/// Row of a value from a bundle, with the columns of [`details`].
 fn of_bundle(row: &Measured) -> [String; 7] {
     let interval = match row.ci95 {
         Some([low, high]) => format!("95 % interval {low} to {high}"),
@@ -199,7 +199,7 @@ fn of_bundle(row: &Measured) -> [String; 7] {
     ]
 }
 
-/// Table of all numbers of a sensor, with source and conditions: published numbers, then numbers of bundles.
+/// Table of all numbers of a sensor, with source and conditions: published numbers, then values from bundles.
 pub fn details(sensor: &Sensor) -> Table {
     let others = [
         "channel",

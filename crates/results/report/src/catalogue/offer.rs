@@ -51,7 +51,7 @@ pub enum Goods {
     Sensor,
     /// Parts or material for a sensor, or the production of a sensor.
     Parts,
-    /// Not stated by the source.
+    /// Goods that the source does not state.
     Unstated,
 }
 
@@ -65,7 +65,7 @@ impl Goods {
         }
     }
 
-    /// Definition in tables.
+    /// Definition of the price in tables.
     pub const fn definition(self) -> &'static str {
         match self {
             Goods::Sensor => "price of a ready sensor",
@@ -87,8 +87,8 @@ impl Price {
         format!("{sign}{} {}", self.amount, self.currency)
     }
 
-    /// Class of the price by powers of ten from 100 in its currency: `below 100 USD`, `below 1000 USD`. A price published as `> 1000 USD` has the class `1000
-    /// USD and more`.
+    /// Class of the price by the limits 100, 1000, 10000, … of its currency: `below 100 USD`, `below 1000 USD`. A price published as `> 1000 USD`
+    /// has the class `1000 USD and more`.
     pub fn class(&self) -> String {
         let edges = (2..=9).map(|power| 10_f64.powi(power));
         let is_open = self.bound == Some(Roughly::Above);
@@ -99,7 +99,7 @@ impl Price {
         }
     }
 
-    /// Remarks and date.
+    /// Remarks on the price, and the date at which it was seen.
     pub fn conditions(&self) -> String {
         let note = self.note.as_ref();
         let note = note.map_or_else(String::new, |note| format!("; {note}"));
@@ -132,7 +132,7 @@ pub enum Way {
 }
 
 impl Way {
-    /// Word in tables.
+    /// Word for the way in tables.
     pub const fn word(self) -> &'static str {
         match self {
             Way::Bought => "bought",

@@ -23,7 +23,7 @@ pub struct Source {
 pub struct Published {
     /// Metric: `mae`.
     pub metric: String,
-    /// Channel or plane of the number.
+    /// Channel or plane of the number, such as `Fz` or `Fxy`.
     pub channel: String,
     /// Number in `unit`.
     pub value: f64,
@@ -44,7 +44,7 @@ pub struct Published {
     /// Standing of the number in verdicts, by the published R² of the channel.
     #[serde(skip)]
     pub standing: Standing,
-    /// 95 % confidence interval; `None` for published numbers.
+    /// 95 % confidence interval of a number from a result; `None` for a number from a publication.
     #[serde(skip)]
     pub interval: Option<[f64; 2]>,
 }

@@ -50,7 +50,7 @@ pub enum CatalogueError {
     },
 }
 
-/// Sensing mechanisms: classes of the TacEva study for cameras, and classes of taxels.
+/// Sensing mechanisms: three of sensors with cameras, as in the TacEva study, and four of taxels.
 const MECHANISMS: [&str; 7] = [
     "IMM",
     "MDM",

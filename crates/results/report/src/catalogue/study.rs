@@ -16,8 +16,8 @@ use taceva_results::{Interval, Score};
 pub(crate) const RESULT: &str = "result";
 
 impl Sensor {
-    /// Converts results to a sensor for `choose`: their numbers, and opacity if the results state it. Limits come from the catalogue sensor of the same name;
-    /// without such a sensor, and for simulated sensors, limits are unknown.
+    /// Converts results to a sensor for `choose`: their values, and opacity if the results state it. Limits come from the catalogue sensor of the
+    /// same name; without such a sensor, and for simulated sensors, limits are unknown.
     pub fn of_study(study: &Study) -> Sensor {
         let result = |score: &Score| {
             let decided_by = score.decided_by().map(|variant| variant.name.clone());
@@ -112,7 +112,8 @@ impl Sensor {
         }
     }
 
-    /// Values that tables show without a test: numbers of other definitions, inexact numbers, size, price, limits, and ways to get the sensor.
+    /// Values that tables show but comparisons do not test: numbers of other definitions, inexact numbers, size, price, limits, and ways to get the
+    /// sensor.
     fn facts(&self) -> Vec<Fact> {
         let size = self.size.iter();
         let mut facts: Vec<Fact> = size.map(|of| fact("size", of.shown(), "mm")).collect();
@@ -151,7 +152,7 @@ impl Sensor {
 }
 
 impl Sensor {
-    /// Source, conditions and definition of each number, by its row name in tables.
+    /// Source, conditions and definition of each value, by its row name in tables.
     fn statements(&self) -> Vec<Statement> {
         let text = |id: &str| {
             self.source(id)

@@ -3,7 +3,7 @@
 use super::{NameError, Sensor, all, lookup};
 
 impl Sensor {
-    /// True if the entry has published facts or numbers. Numbers of bundles do not count.
+    /// True if the entry has published facts or numbers. Values from bundles do not count.
     pub fn has_published(&self) -> bool {
         let is_empty = self.results.is_empty()
             && self.prices.is_empty()
@@ -14,7 +14,7 @@ impl Sensor {
         !is_empty || self.size.is_some() || self.limits.is_some()
     }
 
-    /// True if the entry has numbers of bundles.
+    /// True if the entry has values from bundles.
     pub fn has_bundles(&self) -> bool {
         self.all_rows().next().is_some()
     }
@@ -50,7 +50,7 @@ fn letters(name: &str) -> String {
 
 /// Merges built-in sensors and `entries`, sorted by name.
 ///
-/// An entry with the name of a built-in sensor adds its numbers of bundles and its aliases. The built-in sensor keeps its published numbers.
+/// An entry with the name of a built-in sensor adds its values from bundles and its aliases. The built-in sensor keeps its published numbers.
 pub fn joined(entries: &[Sensor]) -> Vec<Sensor> {
     let mut sensors = all();
     for entry in entries {

@@ -12,7 +12,7 @@ use crate::number::significant;
 use crate::results::Study;
 use crate::spread;
 
-/// Significant difference between two ranked sensors in one ranking number.
+/// Significant difference between two ranked sensors in one ranking value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evidence {
     /// Name of the better sensor.
@@ -25,7 +25,7 @@ pub struct Evidence {
     pub p: f64,
 }
 
-/// Chooses among the sensors of `studies` like [`choose`](super::choose), and tests the differences of the numbers that rank them.
+/// Chooses among the sensors of `studies` like [`choose`](super::choose), and tests the differences of the values that rank them.
 ///
 /// ```
 /// use taceva_report::{Need, catalogue, choose_results};
@@ -198,7 +198,7 @@ impl Choice {
         })
     }
 
-    /// Addition to the sentence on first and second place: tests support or contradict the order.
+    /// Clause for the sentence on first and second place, which states if tests support or contradict the order.
     pub(super) fn caveat(&self) -> String {
         let [first, second, ..] = self.ranked.as_slice() else {
             return String::new();

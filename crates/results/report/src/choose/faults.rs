@@ -40,7 +40,7 @@ fn result<'a>(sensor: &&'a Sensor) -> Option<&'a FaultResult> {
     sensor.faults.as_ref()
 }
 
-/// Name of the fault list, start of its digest, and untested faults. Lists of other severities have the same name.
+/// Name of the fault list, start of its digest, and untested faults. Lists that differ only in severities have the same name.
 fn shown(result: &FaultResult) -> String {
     let list = &result.list;
     let digest: String = list.digest.chars().take(8).collect();

@@ -1,10 +1,10 @@
-//! Inexact numbers that decide a bound: `> 1000 USD` is above 500 USD, and no side of 20 × 27 × 18 mm is above 30 mm.
+//! Inexact values that decide a bound: `> 1000 USD` is above 500 USD, and no side of 20 × 27 × 18 mm is above 30 mm.
 
 use super::need::Bound;
 use super::property::Property;
 use crate::catalogue::{Goods, Price, Roughly, Sensor};
 
-/// Decision on a bound by an inexact number.
+/// Decision on a bound by an inexact value.
 pub(super) struct Decided {
     /// True if every possible value meets the bound, false if none does.
     pub(super) is_met: bool,
@@ -18,7 +18,7 @@ struct Inexact {
     shown: String,
 }
 
-/// Decision on `bound` by an inexact number of `sensor`. `None` if an exact number is known, or if only a part of the possible values meets the bound.
+/// Decision on `bound` by an inexact value of `sensor`. `None` if an exact value is known, or if only a part of the possible values meets the bound.
 pub(super) fn decided(sensor: &Sensor, bound: &Bound) -> Option<Decided> {
     let property = bound.property;
     if property.of(sensor).is_some() {
@@ -30,7 +30,7 @@ pub(super) fn decided(sensor: &Sensor, bound: &Bound) -> Option<Decided> {
     (is_met == is_met_by_greatest).then_some(Decided { is_met, shown })
 }
 
-/// Only price of a ready sensor in the currency of the bound.
+/// Possible values of the only known price of a ready sensor in the currency of the bound; `None` for several prices.
 fn price(sensor: &Sensor, property: Property) -> Option<Inexact> {
     let currency = property.currency()?;
     let ready = sensor.prices.iter();
@@ -45,7 +45,7 @@ fn price(sensor: &Sensor, property: Property) -> Option<Inexact> {
     })
 }
 
-/// Published number of the property.
+/// Possible values of the inexact published number of the property.
 fn published(sensor: &Sensor, property: Property) -> Option<Inexact> {
     let score = property.score()?;
     let mut results = sensor.results.iter().filter(|result| result.is_defined());
@@ -57,7 +57,7 @@ fn published(sensor: &Sensor, property: Property) -> Option<Inexact> {
     })
 }
 
-/// Thickness as one of three outer dimensions, whose order differs between sources.
+/// Possible thickness: one of the three outer dimensions, because their order differs between sources.
 fn thickness(sensor: &Sensor, property: Property) -> Option<Inexact> {
     let size = sensor.size.as_ref();
     let size = size.filter(|size| property == Property::Thickness && size.mm.len() == 3)?;
@@ -82,7 +82,7 @@ mod tests {
     use crate::catalogue;
     use crate::choose::{Choice, Dropped, Need, choose};
 
-    /// Choice among the whole catalogue.
+    /// Choice for `needs` among the whole catalogue.
     fn chosen(needs: &str) -> Choice {
         let needs = Need::parse(needs).unwrap_or_else(|error| panic!("{error}"));
         choose(&catalogue::all(), &needs)

@@ -1,4 +1,4 @@
-//! Needs as words and bounds.
+//! Needs of a task, parsed from words and bounds.
 
 use std::fmt;
 use taceva_core::shown;
@@ -10,7 +10,7 @@ use super::words::{CURRENCIES, OTHER_UNITS, QUANTITIES, Quantity, WORDS};
 /// Need of a task: bounds that exclude sensors, and properties that rank sensors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Need {
-    /// Need as written.
+    /// Need as the user wrote it.
     pub words: String,
     /// Bounds. A sensor that does not meet one of the bounds is excluded.
     pub bounds: Vec<Bound>,

@@ -17,7 +17,7 @@ pub enum NeedError {
     /// A number or its unit is invalid.
     #[error("`{words}`: expected a number above 0{units}, such as `{example}`")]
     Number {
-        /// Need as written.
+        /// Need as the user wrote it.
         words: String,
         /// Expected units, as text.
         units: String,
@@ -27,7 +27,7 @@ pub enum NeedError {
     /// A strict sign, `<` or `>`, which would exclude the bound itself.
     #[error("`{words}`: a bound includes its number; write `{instead}`")]
     Strict {
-        /// Need as written.
+        /// Need as the user wrote it.
         words: String,
         /// The same need with an accepted sign, `<=` or `>=`.
         instead: String,

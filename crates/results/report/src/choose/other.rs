@@ -1,10 +1,10 @@
-//! Numbers of one quantity by other definitions. Such numbers are shown, but do not affect the choice.
+//! Values of one quantity by other definitions. Such values are shown, but do not affect the choice.
 
 use super::property::Property;
 use crate::catalogue::{Published, Sensor};
 
 impl Property {
-    /// Numbers of `sensor` for the same quantity by another definition, as text; `None` if unknown.
+    /// Values of `sensor` for the same quantity by another definition, as text; `None` if unknown.
     ///
     /// For a price, other definitions are another currency, a price of parts, and an inexact price.
     pub(super) fn other(self, sensor: &Sensor) -> Option<String> {

@@ -8,7 +8,7 @@ const FIRST: &str = "first";
 const SECOND: &str = "second";
 
 impl Choice {
-    /// Rank of each sensor, from 1. Equal sensors share a rank; the following rank counts every sensor above it.
+    /// Rank of each sensor: 1 plus the number of better sensors. Equal sensors share a rank.
     pub fn places(&self) -> Vec<usize> {
         let mut places: Vec<usize> = Vec::new();
         for (at, candidate) in self.ranked.iter().enumerate() {

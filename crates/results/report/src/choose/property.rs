@@ -51,7 +51,7 @@ pub enum Property {
 }
 
 impl Property {
-    /// Number of `sensor`; `None` if unknown.
+    /// Value of this property for `sensor`; `None` if unknown.
     pub fn of(self, sensor: &Sensor) -> Option<f64> {
         let result = || {
             let (metric, channel) = self.score()?;
@@ -129,7 +129,7 @@ impl Property {
         }
     }
 
-    /// 95 % interval of the number of `sensor`, if any.
+    /// 95 % interval of the value for `sensor`, if any.
     pub fn interval(self, sensor: &Sensor) -> Option<[f64; 2]> {
         if let Property::Degradation(channel) = self {
             let (_, interval) = sensor.faults.as_ref()?.degradation(channel)?;
@@ -139,7 +139,7 @@ impl Property {
         sensor.result(metric, channel)?.interval
     }
 
-    /// Standing of the number of `sensor`. Properties other than scores always count.
+    /// Standing of the value for `sensor` in verdicts. Properties other than scores always count.
     pub fn standing(self, sensor: &Sensor) -> Standing {
         if let Property::Degradation(channel) | Property::SkillEnd(channel) = self {
             let faults = sensor.faults.as_ref();
@@ -150,8 +150,8 @@ impl Property {
         result.map_or(Standing::Counts, |result| result.standing)
     }
 
-    /// Measured part for a size, goods for a price, greatest tested depth and force for a published error, the variant behind a result; `None` for
-    /// other properties.
+    /// Context of the value: the measured part of a size, the goods of a price, the greatest tested depth and force of a published error, or the
+    /// variant of a result. `None` for other properties.
     pub(super) fn part(self, sensor: &Sensor) -> Option<String> {
         match self {
             Property::Repeatability(_) | Property::Spatial(_) | Property::Uniformity => {
@@ -199,7 +199,7 @@ impl Property {
         }
     }
 
-    /// Unit of the number; empty for a share.
+    /// Unit of the property; empty for a share.
     pub fn unit(self) -> &'static str {
         match self {
             Property::Error(channel)
@@ -248,7 +248,7 @@ impl Property {
         }
     }
 
-    /// Ratio of `value` to the best of `sensors`, 0 to 1; inverted if lower is better. `None` if greater is better and no number is above 0.
+    /// Ratio of `value` to the best of `sensors`, 0 to 1; inverted if lower is better. `None` if greater is better and no value is above 0.
     pub(super) fn share(self, value: f64, sensors: &[&Sensor]) -> Option<f64> {
         let known = sensors.iter().filter_map(|sensor| self.of(sensor));
         if self.better() == Better::Lower {

@@ -1,11 +1,11 @@
-//! Reasons why a sensor has no rank: every need that it does not meet, and every unknown number.
+//! Reasons why a sensor has no rank: every need that it does not meet, and every unknown value.
 
 use super::inexact::decided;
 use super::{Bound, Need, Property};
 use crate::catalogue::Sensor;
 use crate::names::listed;
 
-/// First number of `sensor` that a need uses and that is excluded from verdicts.
+/// First value of `sensor` that a need uses and that is excluded from verdicts.
 pub(super) fn barred(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let properties = needs
         .iter()
@@ -17,7 +17,7 @@ pub(super) fn barred(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     barred.next()
 }
 
-/// True if the number of `sensor` is known and does not meet `bound`, or if no possible value of an inexact number meets `bound`. Always false for a
+/// True if the value of `sensor` is known and does not meet `bound`, or if no possible value of an inexact value meets `bound`. Always false for a
 /// known greatest depth or force, because the sensor may withstand more than the greatest tested value.
 pub(super) fn is_unmet(sensor: &Sensor, bound: &Bound) -> bool {
     match bound.property.of(sensor) {
@@ -26,12 +26,12 @@ pub(super) fn is_unmet(sensor: &Sensor, bound: &Bound) -> bool {
     }
 }
 
-/// True if an inexact number of `sensor` decides a hard need.
+/// True if an inexact value of `sensor` decides a hard need.
 pub(super) fn is_decided(sensor: &Sensor, needs: &[Need]) -> bool {
     bounds(needs).any(|(_, bound)| decided(sensor, bound).is_some())
 }
 
-/// Hard needs that `sensor` does not meet, each with the number.
+/// Hard needs that `sensor` does not meet, each with the value.
 pub(super) fn unmet(sensor: &Sensor, needs: &[Need]) -> Vec<String> {
     let failed = bounds(needs).filter(|(_, bound)| is_unmet(sensor, bound));
     let reasons = failed.filter_map(|(need, bound)| {
@@ -54,7 +54,7 @@ pub(super) fn unmet(sensor: &Sensor, needs: &[Need]) -> Vec<String> {
     reasons.collect()
 }
 
-/// Hard needs for which the number of `sensor` is unknown.
+/// Hard needs for which the value of `sensor` is unknown.
 pub(super) fn unproven(sensor: &Sensor, needs: &[Need]) -> Vec<String> {
     let unproven = bounds(needs).filter_map(|(need, bound)| {
         let property = bound.property;
@@ -104,8 +104,8 @@ fn bounds(needs: &[Need]) -> impl Iterator<Item = (&Need, &Bound)> {
     bounds.flat_map(|need| need.bounds.iter().map(move |bound| (need, bound)))
 }
 
-/// Need as written, with its bound if the words do not state it: `firm contact` with `greatest normal force ≥ 1.5 N`. A need such as `force <= 1 N` is a lower
-/// bound, which its words do not state either.
+/// Need as the user wrote it, with its bound if the words do not state it: `firm contact` with `greatest normal force ≥ 1.5 N`. The need `force <=
+/// 1 N` also gets its bound, because the sensor must reach 1 N.
 fn asked(need: &Need, bound: &Bound) -> String {
     let has_number = need.words.contains(|letter: char| letter.is_ascii_digit());
     match has_number && !bound.property.is_reached() {
@@ -119,7 +119,7 @@ mod tests {
     use crate::catalogue;
     use crate::choose::{Choice, Dropped, Need, choose};
 
-    /// Choice among the whole catalogue.
+    /// Choice for `needs` among the whole catalogue.
     fn chosen(needs: &str) -> Choice {
         let needs = Need::parse(needs).unwrap_or_else(|error| panic!("{error}"));
         choose(&catalogue::all(), &needs)

@@ -12,18 +12,18 @@ use crate::names::listed;
 use crate::number::{fixed, numeral};
 use crate::table::{Column, Direction, Table};
 
-/// Schema of a choice as JSON. 1.1: `open` lists sensors with an unknown number for a hard need. 1.2: each step states the better direction. 1.3:
-/// place and tie of each ranked sensor. 1.4: intervals, and significant differences. 1.5: sensors with limits from the catalogue. 1.6: `unplaced`
-/// lists sensors without a number for a ranking need. 1.7: `other_definitions` lists sensors with numbers of another definition only, and each step
-/// names the part or the goods of its number. 1.8: `apart` lists sensors that were measured on other samples
-/// or with other faults. 1.9: an inexact number that decides a hard need.
+/// Schema of a choice as JSON. Version 1.1 adds `open`: sensors with an unknown value for a hard need. 1.2 adds the better direction of each step.
+/// 1.3 adds place and tie of each ranked sensor. 1.4 adds intervals and significant differences. 1.5 adds sensors with limits from the catalogue.
+/// 1.6 adds `unplaced`: sensors without a value for a ranking need. 1.7 adds `other_definitions`: sensors with values of another definition only.
+/// 1.7 also adds the part or the goods of each value. 1.8 adds `apart`: sensors that were measured on other samples or with other faults. 1.9 adds
+/// inexact values that decide a hard need.
 pub const CHOICE_SCHEMA: &str = "taceva.choice/1.9";
 
 /// Greatest number of names in a sentence.
 const SHOWN: usize = 6;
 
 impl Choice {
-    /// Table with one row for each sensor, need and number, from the best sensor to the excluded sensors.
+    /// Table with one row for each sensor, need and value, from the best sensor to the excluded sensors.
     pub fn table(&self) -> Table {
         let columns = [
             Column::new("place"),
@@ -145,7 +145,7 @@ impl Choice {
         steps.any(|step| !step.is_bound)
     }
 
-    /// Notes on the numbers of the sensors: tested depths and forces of published errors, variants, measured parts of sizes, and goods of prices.
+    /// Notes on the values of the sensors: tested depths and forces of published errors, variants, measured parts of sizes, and goods of prices.
     fn note_parts(&self, table: &mut Table) {
         let all = || self.ranked.iter().chain(&self.others);
         let is_error = |step: &Step| matches!(step.property, Property::Error(_));
@@ -278,7 +278,7 @@ impl Choice {
         format!("{whole:#}\n")
     }
 
-    /// HTML page.
+    /// HTML page of the choice for `needs`.
     pub fn page(&self, needs: &str) -> String {
         let lead = html! { p.lead { "Needs: " (needs) } };
         let mut document = Document::new("Which sensor?", lead);

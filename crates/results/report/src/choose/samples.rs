@@ -28,7 +28,7 @@ pub(super) fn take_apart(remaining: &mut Vec<&Sensor>, needs: &[Need]) -> Vec<Dr
     apart
 }
 
-/// Samples and definitions of the numbers that rank `sensor`, as one text; `None` for numbers without a bundle.
+/// Samples and definitions of the values that rank `sensor`, as one text; `None` for values without a bundle.
 fn basis(sensor: &Sensor, ranks: &[Property]) -> Option<String> {
     let samples = sensor.samples.clone()?;
     let results = ranks.iter().filter_map(|property| {

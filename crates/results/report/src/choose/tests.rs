@@ -5,7 +5,7 @@ use crate::Study;
 use crate::catalogue;
 use crate::faults::tests::{drawn, without_skill};
 
-/// Names of the four sensors of the study, ranked for `needs`.
+/// Names of the four sensors of the TacEva study, ranked for `needs`.
 fn ranked(needs: &str) -> Vec<String> {
     let needs = Need::parse(needs).unwrap_or_else(|error| panic!("{error}"));
     let of_study = ["GelSight", "GelSightWM", "MagicTac", "ViTacTip"];
@@ -271,7 +271,7 @@ fn what_no_sensor_meets_says_who_fails_by_which_number() {
     );
 }
 
-/// Choice among the whole catalogue.
+/// Choice for `needs` among the whole catalogue.
 fn chosen(needs: &str) -> Choice {
     let needs = Need::parse(needs).unwrap_or_else(|error| panic!("{error}"));
     choose(&catalogue::all(), &needs)

@@ -1,4 +1,4 @@
-//! Table of the numbers of all considered sensors.
+//! Table of the values of all considered sensors.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,7 +11,7 @@ use crate::scores::sign;
 use crate::table::{Cell, Column, Direction, Table};
 
 impl Choice {
-    /// Values of all sensors with a requested number: one row for each sensor, one column for each number, ranked sensors first.
+    /// Values of all sensors with a requested value: one row for each sensor, one column for each requested value, ranked sensors first.
     ///
     /// ```
     /// use taceva_report::{Need, catalogue, choose};
@@ -82,7 +82,7 @@ impl Choice {
         }
     }
 
-    /// True for a sensor with known numbers but no rank.
+    /// True for a sensor with known values but no rank.
     pub(super) fn sets_aside(&self, sensor: &Sensor) -> bool {
         let dropped = self.dropped.iter().chain(&self.barred);
         let dropped = dropped.chain(&self.unplaced).chain(&self.apart);
@@ -92,12 +92,12 @@ impl Choice {
     }
 }
 
-/// Sign for the standing of a number; empty if it counts without remark or is unknown.
+/// Sign for the standing of a value; empty if it counts without remark or is unknown.
 fn mark(step: &Step) -> &'static str {
     step.value.map_or("", |_| sign(step.standing))
 }
 
-/// Number with its interval: `0.0361 N† (0.034 … 0.038)`, an inexact number that decides a need, or `unknown`.
+/// Value with its interval: `0.0361 N† (0.034 … 0.038)`, an inexact value that decides a need, or `unknown`.
 fn cell(step: &Step, mark: &str) -> String {
     let Some(value) = step.value else {
         let inexact = step.inexact.as_deref();

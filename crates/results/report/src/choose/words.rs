@@ -188,7 +188,7 @@ pub(super) const CURRENCIES: [&str; 9] = [
 
 /// Another unit of a quantity.
 pub(super) struct OtherUnit {
-    /// Unit as written.
+    /// Symbol of the other unit, as the user writes it.
     pub(super) written: &'static str,
     /// Unit of the quantity.
     pub(super) unit: &'static str,

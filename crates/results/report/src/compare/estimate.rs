@@ -4,7 +4,7 @@ use taceva_metrics::{Estimate, Sides, StatedInterval};
 
 use taceva_results::{Interval, Score};
 
-/// Flag of a skill whose constant is not the mean of the training part.
+/// Flag of a skill relative to a prediction of the mean of truth, instead of the mean of the training part.
 const MEAN_OF_TRUTH: &str = "constant is the mean of truth";
 
 /// Estimates of both scores, or the reason why the scores have different meanings.

@@ -39,7 +39,7 @@ pub struct Decision {
     pub question: String,
     /// Name of the metric.
     pub metric: String,
-    /// Channel or plane of the score.
+    /// Channel or plane of the score, such as `Fz` or `Fxy`.
     pub channel: String,
     /// Deciding variant of the metric; `None` for the value itself.
     pub decided_by: Option<String>,
@@ -90,7 +90,7 @@ impl Comparison {
         decisions
     }
 
-    /// Counts of the answers, on one line.
+    /// Numbers of pairs by verdict, on one line.
     pub fn summary(&self) -> String {
         let all = self.answers.len();
         if all == 0 {
@@ -377,7 +377,7 @@ fn untested(
     }
 }
 
-/// Largest p value of the significant differences, as text.
+/// Bound of the p values of significant differences, as text. `p` is the largest p value.
 fn p_words(p: f64) -> String {
     if p < 0.001 {
         "p < 0.001".to_owned()

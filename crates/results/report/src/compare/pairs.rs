@@ -120,7 +120,7 @@ impl<'a> Errors<'a> {
     }
 }
 
-/// Clusters that the interval of a score leaves out, for sums of errors by cluster.
+/// Column of the clusters by which errors are summed, as for the interval of a score.
 struct Clusters {
     name: &'static str,
     column: &'static str,

@@ -4,7 +4,7 @@ use taceva_metrics::{Difference, DifferenceTest, SignFlip, holm};
 
 use crate::number::significant;
 
-/// Significance level of the tests of a family.
+/// Significance level of a family of tests.
 const LEVEL: f64 = 0.05;
 
 /// Reason, for each test of `family`, why it cannot show any difference; `None` if it can.

@@ -17,9 +17,9 @@ pub(super) struct Remarks {
     pub(super) tie: Option<Tie>,
     /// Studies that are excluded from verdicts, with the reason.
     pub(super) barred: Vec<(usize, String)>,
-    /// True if the models were trained at too few places for a verdict on sensors.
+    /// True if the models were trained at too few contact points for a verdict on sensors.
     pub(super) is_demonstration: bool,
-    /// Remark on different label spreads of the studies in verdicts; empty if they are similar.
+    /// Remark if the label spreads of the studies that take part in verdicts differ; empty if they are similar.
     pub(super) spread: String,
 }
 

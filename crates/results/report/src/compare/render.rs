@@ -13,7 +13,7 @@ use crate::wrap::wrapped;
 /// Indent of answers below the name of the score, in characters.
 const INDENT: usize = 2;
 
-/// Schema of a comparison as JSON. 2.1: `values` lists the values side by side.
+/// Schema of a comparison as JSON. Version 2.1 adds `values`, which lists the values side by side.
 pub const COMPARISON_SCHEMA: &str = "taceva.comparison/2.1";
 
 /// Heads of the columns of an answer, after the column of the metric.

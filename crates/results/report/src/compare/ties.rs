@@ -88,7 +88,7 @@ mod tests {
     use super::*;
     use taceva_results::Samples;
 
-    /// A study with the success rate `share`, exact predictions for the share `exact`, and the samples, if not empty.
+    /// Study with a success rate of `share`, a share `exact` of exact predictions, and the rows `samples`, unless empty.
     fn study(name: &str, [share, exact]: [f64; 2], samples: &str) -> Study {
         let text = format!(
             r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "{name}"}}, "metrics": {{"sr": {{"line":

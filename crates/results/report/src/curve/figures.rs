@@ -70,7 +70,7 @@ impl CalibrationCurve {
         Ok(figures)
     }
 
-    /// Relative errors at each force. The remark of an error states which row of limits similar to those of ISO 376 the errors at this force meet.
+    /// Relative errors at each force. The remark names the row of limits, similar to those of ISO 376, that the errors at this force meet.
     fn of_proving(&self, found: &ProvingFigures) -> Vec<CurveFigure> {
         let mut figures = Vec::new();
         for (at, level) in found.levels.iter().enumerate() {

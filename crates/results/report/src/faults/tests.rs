@@ -17,7 +17,7 @@ pub(crate) fn without_skill(sensor: &str) -> FaultResult {
     FaultResult::read(&result.to_string()).expect("a result")
 }
 
-/// The same as JSON.
+/// JSON of the result that [`drawn`] returns.
 fn written(sensor: &str, list: &str, mean: f64) -> Value {
     let estimate =
         |value: f64| json!({"value": value, "ci95": [value - 0.1, value + 0.1], "reason": null});

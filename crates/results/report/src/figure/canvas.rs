@@ -92,7 +92,7 @@ impl Label {
     }
 }
 
-/// Dots of one kind.
+/// Positions of dots, with their tooltips.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Points {
     pub(crate) at: Vec<[f64; 2]>,
@@ -113,7 +113,7 @@ pub(crate) enum Mark {
         opacity: f64,
     },
     Box {
-        /// Left, top, width, height.
+        /// Left, top, width and height of the box, in canvas units.
         place: [f64; 4],
         ink: Ink,
         words: String,
@@ -194,7 +194,7 @@ impl Canvas {
         self.marks.push(Mark::Label(label));
     }
 
-    /// Adds a text on a coloured cell. The text is always dark, because cell colours do not depend on the mode.
+    /// Adds a text on a coloured cell. The text is always dark, because cell colours are equal in light and dark mode.
     pub(crate) fn cell_label(&mut self, label: Label) {
         let ink = Ink::Rgb([27, 31, 36]);
         self.marks.push(Mark::Label(Label { ink, ..label }));

@@ -31,8 +31,8 @@ impl Grid {
         }
     }
 
-    /// Fits the grid to a canvas of the width `room`, with the margin `right` after the last panel of a row. Reduces the panels per row if panels would be too
-    /// narrow. Panels keep their proportions.
+    /// Fits the grid to a canvas of the width `room`, with the margin `right` after the last panel of a row. Reduces the panels per row if panels
+    /// would be too narrow. Panels keep their proportions, but are at least [`FLATTEST`] times as high as wide.
     #[must_use]
     pub(crate) fn within(self, room: Option<f64>, right: f64) -> Grid {
         let Some(room) = room else { return self };

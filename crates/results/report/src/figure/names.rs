@@ -21,7 +21,7 @@ const PLACES: [([f64; 2], Anchor); 10] = [
     ([10.0, 27.0], Anchor::Start),
 ];
 
-/// Left, top, right, bottom.
+/// Bounds of a rectangle in canvas units: left, top, right, bottom.
 type Bounds = [f64; 4];
 
 /// Label for each dot inside `area`, at the position with the least overlap.
@@ -75,7 +75,7 @@ fn bounds(label: &Label) -> Bounds {
     ]
 }
 
-/// Common area of two bounds.
+/// Area that two rectangles share.
 fn shared(a: Bounds, b: Bounds) -> f64 {
     let across = a[2].min(b[2]) - a[0].max(b[0]);
     let down = a[3].min(b[3]) - a[1].max(b[1]);

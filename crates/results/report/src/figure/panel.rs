@@ -89,7 +89,7 @@ impl Panel {
         self.frame(axes, bottom + below, canvas);
     }
 
-    /// Draws the y ticks, both axis lines and all titles, with the x title at `below`.
+    /// Draws the y ticks, both axis lines and all titles. `below` is the height of the x title.
     fn frame(&self, axes: &Axes, below: f64, canvas: &mut Canvas) {
         let Area { left, top, .. } = self.area;
         let (right, bottom) = (self.area.right(), self.area.bottom());
@@ -115,7 +115,7 @@ impl Panel {
         canvas.label(y);
     }
 
-    /// Draws a line through the levels with a value. Levels without a value interrupt the line.
+    /// Draws a line through points with a y value. Points without a y value interrupt the line.
     pub(crate) fn curve(
         &self,
         levels: impl Iterator<Item = (f64, Option<f64>)>,
@@ -132,7 +132,7 @@ impl Panel {
         self.end_run(&mut run, stroke, canvas);
     }
 
-    /// Draws a section of levels without gaps. A section of one level becomes a dot.
+    /// Draws a section of a line without gaps. A section of one point becomes a dot.
     fn end_run(&self, run: &mut Vec<[f64; 2]>, stroke: Stroke, canvas: &mut Canvas) {
         if let [alone] = run[..] {
             let points = Points {
@@ -144,7 +144,7 @@ impl Panel {
         canvas.path(std::mem::take(run), stroke);
     }
 
-    /// Draws the band between two curves. Levels without a band interrupt the band.
+    /// Draws the band between two curves. Points without a band interrupt the band.
     pub(crate) fn band(
         &self,
         levels: impl Iterator<Item = (f64, Option<[f64; 2]>)>,

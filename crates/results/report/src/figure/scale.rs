@@ -55,7 +55,7 @@ impl Scale {
         }
     }
 
-    /// Lowest and highest value.
+    /// Lowest and highest value of the scale.
     pub(crate) fn values(&self) -> [f64; 2] {
         self.values
     }

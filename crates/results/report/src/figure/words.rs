@@ -1,4 +1,4 @@
-//! Names for figures.
+//! Axis labels and shortened names for figures.
 
 use taceva_core::Unit;
 use taceva_metrics::Better;

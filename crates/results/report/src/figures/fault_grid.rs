@@ -1,4 +1,4 @@
-//! Grid of faults and severities: by how much errors grow, by colour and number.
+//! Grid of faults and severities. The colour and the number of a cell state the growth of the error.
 
 use taceva_metrics::elementary::logarithm;
 
@@ -32,7 +32,7 @@ pub(crate) struct FaultGrid {
 pub(crate) struct FaultPanel {
     /// Name of the channel.
     pub(crate) channel: String,
-    /// Faults, from above.
+    /// Faults, from top to bottom.
     pub(crate) rows: Vec<FaultRow>,
 }
 

@@ -9,7 +9,7 @@ use crate::number::numeral;
 /// Greatest number of cells in a drawn map.
 const MOST_CELLS: usize = 10_000;
 
-/// Content of a map.
+/// Content of a heat map.
 pub(super) struct Heat<'a> {
     pub(super) map: &'a Map,
     pub(super) title: String,

@@ -117,7 +117,7 @@ fn panel(
     Some(())
 }
 
-/// Labels of a channel in the calibration part, and the channel; `None` without labels.
+/// Labels of a channel in the calibration phase, and the channel; `None` without labels.
 fn truths<'a>(study: &'a Study, name: &str) -> Option<(Vec<f64>, SampleChannel<'a>)> {
     let samples = study.samples.as_ref()?;
     let channel = samples.channel(name)?;

@@ -1,4 +1,4 @@
-//! Curves of scores with one value for each level: bias by level, and shares within a tolerance.
+//! Curves of the bias over the truth, and of the share of samples within a tolerance.
 
 use taceva_core::Unit;
 use taceva_metrics::Curve;
@@ -13,7 +13,7 @@ use super::overlay::{Level, Line, Sheet, Ways, Words, draw as overlay};
 /// Least number of samples in a drawn bin. The mean of fewer samples is noise.
 const FEWEST: u64 = 5;
 
-/// Levels of `curve` without smoothing.
+/// Points of `curve`, without smoothing.
 pub(super) fn levels(curve: &Curve) -> Vec<Level> {
     let band = |at: usize| {
         let band = curve.band.as_ref()?;
@@ -28,7 +28,7 @@ pub(super) fn levels(curve: &Curve) -> Vec<Level> {
     (0..curve.x.len()).map(level).collect()
 }
 
-/// One sheet for each channel for the curve `variant` of `metric`, with the name of its y axis.
+/// One sheet for each channel, with the variant `curve` of `metric` for each study. `x` and `y` name the axes.
 pub(super) fn sheets(studies: &[Study], metric: &str, x: &str, y: &str, ways: Ways) -> Vec<Sheet> {
     // A level shows a bias, which is best near zero; the metric is the greatest bias.
     let directed_by = match metric {

@@ -11,16 +11,16 @@ mod spokes;
 use crate::figure::{Figure, FigureStyle};
 use crate::results::Study;
 
-/// Drawn figures of the study, and the reasons why others are not drawn.
+/// Drawn figures of the TacEva study, and the reasons why others are not drawn.
 #[derive(Clone, Debug, Default)]
 pub struct StudyFigures {
-    /// Figures with values, in the order of the study.
+    /// Figures with values, in the order of the TacEva study.
     pub drawn: Vec<Figure>,
     /// Name of each figure without values, with the reason.
     pub absent: Vec<(String, String)>,
 }
 
-/// Figures 3 to 8 of the study for `studies`, in a style for print.
+/// Figures 3 to 8 of the TacEva study for `studies`, in a style for print.
 pub fn study_figures(studies: &[Study], style: &FigureStyle) -> StudyFigures {
     let room = style.room();
     let all: [(&str, Option<Figure>, &str); 10] = [

@@ -13,7 +13,7 @@ pub(super) struct Line {
     pub(super) levels: Vec<Level>,
 }
 
-/// Level of a curve.
+/// Point of a curve: its y value over `n` samples at `x`, and its band.
 #[derive(Clone)]
 pub(super) struct Level {
     pub(super) x: f64,

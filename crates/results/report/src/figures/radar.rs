@@ -9,7 +9,7 @@ use crate::number::numeral;
 use crate::results::{PUBLISHED, Study};
 use taceva_results::Score;
 
-/// Axis of a radar.
+/// Axis of a radar chart.
 struct Axis {
     metric: &'static str,
     channel: &'static str,
@@ -75,11 +75,11 @@ pub(super) struct Rim<'a> {
     pub(super) better: Better,
 }
 
-/// Width of a radar that fits a phone, with axis names in two lines.
+/// Width of a radar chart that fits a phone, with axis names in two lines.
 pub(super) const WIDTH: f64 = 440.0;
 const RADIUS: f64 = 130.0;
 
-/// Radars of accuracy, sensor and robustness; empty for a single study.
+/// Radar charts of accuracy, sensor and robustness; empty for a single study.
 pub(super) fn draw(studies: &[Study]) -> Vec<Option<Figure>> {
     if studies.len() < 2 {
         return Vec::new();

@@ -10,7 +10,7 @@ use taceva_results::Value;
 use super::SIX;
 use super::overlay::{Level, Line, Sheet, Ways, Words, draw as overlay};
 
-/// Number of bins in a rolling mean, odd.
+/// Number of bins in a rolling mean; an odd number.
 const WINDOW: usize = 5;
 
 /// Figures of the error over distance and of the error over depth.

@@ -2,8 +2,8 @@
 
 use taceva_core::counted;
 
-/// Positions of the samples to draw, ascending: all if at most `most`. Otherwise a tenth of `most` with the largest errors, so that outliers are visible, and
-/// evenly spaced rows.
+/// Positions of the samples to draw, ascending. Draws all samples up to `most`. Otherwise, a tenth of `most` has the largest errors, so that
+/// outliers are visible, and the others are evenly spaced rows.
 pub(crate) fn thin(errors: &[f64], most: usize) -> Vec<usize> {
     if errors.len() <= most {
         return (0..errors.len()).collect();

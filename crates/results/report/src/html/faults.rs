@@ -10,7 +10,7 @@ use crate::names::{listed, names};
 use crate::number::FormattedValue;
 use crate::results::Study;
 
-/// Page of one result of `taceva stress` as one HTML file: the section that the page of a run has.
+/// HTML page of one result of `taceva stress`, with the same content as the section in the page of a run.
 pub fn fault_page(result: FaultResult) -> String {
     let studies = [Study::of_faults(result)];
     let title = format!("{}: errors with faults", studies[0].sensor);

@@ -17,14 +17,14 @@ pub(super) fn drawing(figure: &Figure) -> Markup {
     PreEscaped(figure.inline())
 }
 
-/// Shows the radars of `figures` side by side; `None` without radars.
+/// Shows the radar charts of `figures` side by side; `None` without radar charts.
 pub(crate) fn radars(figures: &[Figure]) -> Option<Markup> {
     let radars: Vec<&Figure> = figures.iter().filter(|drawn| is_radar(drawn)).collect();
     (!radars.is_empty())
         .then(|| html! { div.radars { @for radar in radars { (one(radar)) } } "\n" })
 }
 
-/// True for radars. Radars belong to the overview of sensors.
+/// True for radar charts, which belong to the overview of sensors.
 pub(super) fn is_radar(figure: &Figure) -> bool {
     figure.id.starts_with("radar")
 }

@@ -1,4 +1,4 @@
-//! Overview of the sensors: main scores and radars.
+//! Overview of the sensors: main scores and radar charts.
 
 use maud::{Markup, html};
 
@@ -9,7 +9,7 @@ use crate::results::Study;
 use crate::scores::{ScoreRow, ScoreTable};
 use crate::training::unequal_models;
 
-/// Main table and radars; `None` if both are absent.
+/// Main table and radar charts; `None` if both are absent.
 pub(super) fn section(studies: &[Study], table: &ScoreTable, figures: &[Figure]) -> Option<Markup> {
     let main = table.main();
     let rows: Vec<&ScoreRow> = main.rows.iter().collect();

@@ -8,7 +8,7 @@ use crate::names::names;
 use crate::number::numeral;
 use crate::results::Study;
 
-/// Number of groups, and the section with their errors. `None` if no study has a split by few groups of a column.
+/// Number of groups, and the section with their errors. `None` if no study has a split by a column with few groups.
 pub(super) fn section(studies: &[Study]) -> Option<(usize, Markup)> {
     let mut count = 0;
     let mut rows: Vec<Markup> = Vec::new();

@@ -17,7 +17,7 @@ use crate::scores::ScoreTable;
 use crate::short_digests::short_digests;
 use taceva_results::Interval;
 
-/// Citation of the study that defined the metrics, as its publisher prints it.
+/// Citation of the TacEva study, which defined the metrics, as its publisher prints it.
 const STUDY: &str = "@article{taceva-study,\n  author  = {Cong, Qingzheng and Oh, Steven and Fan, Wen and Luo, Shan and Althoefer, Kaspar and Zhang, Dandan},\n  title   = {{TacEva}: A Performance Evaluation Framework for Vision-Based Tactile Sensors},\n  journal = {Advanced Intelligent Systems},\n  year    = {2026},\n  doi     = {10.1002/aisy.202501179}\n}";
 
 /// Paragraph and BibTeX entries, each with a copy button, and tables of the sensors and of their devices.
@@ -104,7 +104,7 @@ fn origin(studies: &[Study]) -> String {
     out
 }
 
-/// Sentence on the tables that imports joined, from the notes of the results.
+/// Sentence on the tables joined by imports, from the notes of the results.
 fn joined(studies: &[Study]) -> String {
     let notes = studies.iter().flat_map(|study| &study.notes);
     let joins = notes.filter_map(|note| note.split_once("import: table "));
@@ -121,7 +121,7 @@ fn joined(studies: &[Study]) -> String {
     }
 }
 
-/// Sentence on contact places without a name in the recording, from the notes of the results.
+/// Sentence on contact points without a name in the recording, from the notes of the results.
 fn places(studies: &[Study]) -> String {
     let mut notes = studies.iter().flat_map(|study| &study.notes);
     match notes.any(|note| note.contains("names no places")) {
@@ -130,7 +130,7 @@ fn places(studies: &[Study]) -> String {
     }
 }
 
-/// Number of presses in the recordings, and number of contact places in the scored samples, as text.
+/// Number of presses in the recordings, and number of contact points in the scored samples, as text.
 fn pressed(studies: &[Study]) -> String {
     let presses = counted_span(studies, "press", |study| whole(study.made.presses));
     let points = counted_span(studies, "contact point", points);
@@ -242,7 +242,7 @@ fn model(studies: &[Study]) -> String {
     }
 }
 
-/// Sentence that scored samples were unseen in training, with the studies for which this is false.
+/// Sentence which states that scored samples were unseen in training, with the studies for which this is false.
 fn unseen(studies: &[Study]) -> String {
     let seen = studies.iter().filter_map(|study| {
         let part = study.made.seen_part.as_ref()?;
@@ -287,7 +287,7 @@ fn scope(studies: &[Study]) -> String {
     )
 }
 
-/// Plural name of the clusters that intervals leave out: `contact points`, `groups by object`, `samples`.
+/// Plural name of the clusters by which intervals are computed: `contact points`, `groups by object`, `samples`.
 pub(super) fn clusters(studies: &[Study]) -> String {
     let are_samples = |study: &Study| {
         let intervals = study.scores.iter();
@@ -334,7 +334,7 @@ fn values(studies: &[Study], name: &str) -> Option<Vec<String>> {
     (!values.is_empty()).then_some(values)
 }
 
-/// BibTeX entries of the program, the study, and the sources of published numbers.
+/// BibTeX entries of the program, the TacEva study, and the sources of published numbers.
 fn bibtex(studies: &[Study]) -> String {
     let versions = values(studies, "taceva");
     let version = versions.map_or_else(

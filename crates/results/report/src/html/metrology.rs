@@ -14,9 +14,9 @@ use crate::reference::reference_certificate;
 use crate::residuals::residual_components;
 use crate::results::Study;
 
-/// Part of the protocol that gives residuals, and the column that groups them.
+/// Phase of the protocol that gives residuals, and the column that groups them.
 const PLACES: [&str; 2] = ["calibration", "point_id"];
-/// Part of the protocol with several light scenes, and the column of the scene.
+/// Phase of the protocol with several light scenes, and the column of the scene.
 const LIGHTS: [&str; 2] = ["light-sweep", "scene"];
 /// Sources of the budget, in addition to the certificate.
 const SOURCES: [BudgetSource; 3] = [BETWEEN, WITHIN, BIAS];
@@ -152,7 +152,7 @@ impl Measurand {
     }
 }
 
-/// Median of the labels of one part of the protocol, rounded to two digits.
+/// Median of the labels of one phase of the protocol, rounded to two digits.
 fn middle(samples: &Samples, channel: &str, part: &str) -> f64 {
     let labels = samples.channel(channel);
     let rows = samples.of_protocol(part).into_iter();
@@ -164,7 +164,7 @@ fn middle(samples: &Samples, channel: &str, part: &str) -> f64 {
     format!("{median:.1e}").parse().unwrap_or(median)
 }
 
-/// Measured figures of residuals, and figures that the budget lists as effects without a source.
+/// Figures measured from residuals: `components`, drift, and the variation between light scenes, if known.
 fn evidence(
     study: &Study,
     samples: &Samples,

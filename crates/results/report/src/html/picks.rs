@@ -13,7 +13,7 @@ const EACH: usize = 4;
 pub struct Pick {
     /// Sample id.
     pub id: String,
-    /// Row among the samples.
+    /// Row of the sample in the table of samples, from 0.
     pub row: usize,
     /// True for one of the worst samples, false for one of the best samples.
     pub is_worst: bool,
@@ -92,7 +92,7 @@ fn apart<'a>(
     found
 }
 
-/// Range of the true values of predicted samples; `None` if fewer than two values differ.
+/// Width of the range of the true values of predicted samples; `None` if fewer than two values differ.
 fn range(channel: SampleChannel<'_>) -> Option<f64> {
     let pairs = (0..channel.rows()).filter_map(|row| channel.pair(row));
     let [low, high] = crate::figure::extent(pairs.map(|[truth, _]| truth))?;

@@ -14,7 +14,7 @@ const SIZE: f64 = 160.0;
 /// Length of the arrow for the greatest shear force, in SVG units.
 const LONGEST: f64 = 34.0;
 
-/// Scale of the positions of one sensor.
+/// Scale from the positions of one sensor to the drawing.
 pub(super) struct Place {
     study: usize,
     reach_mm: f64,

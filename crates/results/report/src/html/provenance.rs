@@ -48,8 +48,8 @@ fn methods(table: &ScoreTable) -> Vec<String> {
     methods.into_iter().map(named).collect()
 }
 
-/// Text of a provenance entry. In the entry `samples`, replaces `left_out` by readable words: for a recording of presses, these samples belong to
-/// other parts of the protocol.
+/// Text of a provenance entry. In the entry `samples`, replaces `left_out` by readable words. In a recording of presses, these samples belong to
+/// other phases of the protocol.
 fn of_parts(study: &Study, term: &str, text: &str) -> String {
     let left_out = match study.made.presses {
         0 => "left out ",

@@ -51,7 +51,7 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
     html! { ul.verdicts { @for line in &lines { (line) } } "\n" }
 }
 
-/// Verdict on a row; for lighting scores, followed by the effect of light. `None` without a value.
+/// Verdict on a row of scores; for lighting scores, followed by the effect of light. `None` without a value.
 fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Markup> {
     let verdict = match studies {
         [study] => alone(study, row)?,

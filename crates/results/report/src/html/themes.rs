@@ -56,7 +56,7 @@ const fn of_theme(theme: Theme, figures: &'static [&'static str]) -> Section {
     }
 }
 
-/// All headline scores and all figures except radars, by theme, followed by all rows.
+/// All headline scores and all figures except radar charts, by theme, followed by all rows.
 pub(super) fn section(table: &ScoreTable, figures: &[Figure]) -> Markup {
     let headlines = table.headlines();
     let (mut rows_left, mut figures_left): (Vec<&ScoreRow>, Vec<&Figure>) = (

@@ -1,4 +1,4 @@
-//! Values of this program next to the values that the study prints.
+//! Values of this program next to the values that the TacEva study prints.
 
 use crate::catalogue::{Published, find};
 use crate::number::{FormattedValue, fixed};
@@ -6,10 +6,10 @@ use crate::results::Study;
 use crate::scores::{BARRED, ScoreTable};
 use crate::table::{Cell, Estimate};
 
-/// Sensors of the study, in the order of its tables.
+/// Sensors of the TacEva study, in the order of its tables.
 pub(super) const SENSORS: [&str; 4] = ["ViTacTip", "MagicTac", "GelSight", "GelSightWM"];
 
-/// Number format of a table in the study.
+/// Number format of a table in the TacEva study.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Digits {
     /// Number of significant digits.
@@ -19,7 +19,7 @@ pub(super) enum Digits {
 }
 
 impl Digits {
-    /// Formats a number as in the study.
+    /// Formats a number as in the TacEva study.
     pub(super) fn print(self, number: f64) -> String {
         match self {
             Digits::Percent => format!("{} %", fixed(100.0 * number, 1)),
@@ -75,7 +75,7 @@ pub(super) fn beside(ours: Option<f64>, printed: Option<f64>, digits: Digits) ->
     }
 }
 
-/// Published number for the sensor of `study`; `None` if the paper states no number.
+/// Published number for the sensor of `study`; `None` if the TacEva study states no number.
 pub(super) fn printed(study: &Study, metric: &str, channel: &str) -> Option<f64> {
     let sensor = find(&study.sensor)?;
     let is_meant = |result: &&Published| result.metric == metric && result.channel == channel;

@@ -5,12 +5,13 @@ use crate::catalogue::find;
 use crate::number::fixed;
 use crate::variables::VARIABLES;
 
-/// Least spacing, greatest spacing and step of the gratings in the study, in micrometres. [`BOARDS`] is the number in its text.
+/// Least spacing, greatest spacing and step of the gratings in the TacEva study, in micrometres. [`BOARDS`] is the number of boards that its text
+/// states.
 const GRATINGS_UM: [u32; 3] = [250, 1750, 50];
 const BOARDS: u32 = 72;
-/// Radius of the indenter in the text of the study and in the caption of a figure, mm.
+/// Radius of the indenter in the text of the TacEva study and in the caption of a figure, mm.
 const INDENTER_MM: [f64; 2] = [2.0, 10.0];
-/// Ratio of light in scene S4 to reference light, in the text of the study.
+/// Ratio of light in scene S4 to reference light, in the text of the TacEva study.
 const LIGHT: f64 = 7.0;
 const ERROR: f64 = 10.0;
 /// Published means in the table of lighting that differ from the mean of their rows, in percent.

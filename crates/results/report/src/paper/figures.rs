@@ -1,4 +1,4 @@
-//! Numbers that the study publishes in its figures, next to numbers of this program.
+//! Values that the TacEva study publishes in its figures, next to values of this program.
 
 use std::collections::BTreeMap;
 
@@ -11,10 +11,10 @@ use crate::scores::ScoreTable;
 use crate::table::{Cell, NAME_PT, Row, Table, VALUE_SIZE, Words, latex_symbol, stacked};
 use crate::variables::VARIABLES;
 
-/// Sentence on the figures of the study without numbers.
+/// Sentence on the figures of the TacEva study without numbers.
 pub(super) const UNPRINTED: &str = "The study prints no numbers with its figures 6a, 7a, 7b and 8a to 8c; its table V has the means of figure 7b, and its tables and figures 3c and 4 have the quantities of figure 8.";
 
-/// A number of a figure: its name, its score, and the printed digits.
+/// A value of a figure: its name, its score, and the printed digits.
 struct Quantity {
     name: Words,
     metric: &'static str,
@@ -22,7 +22,7 @@ struct Quantity {
     digits: Digits,
 }
 
-/// One table for each figure, with numbers of this program, the numbers of the study, and the name of the figure.
+/// One table for each figure, with values of this program, values of the TacEva study, and the name of the figure.
 pub(super) fn all(studies: &[Study], scores: &ScoreTable) -> Vec<(String, Table)> {
     let sheet = Sheet { studies, scores };
     let quantity = |name: &str, metric, channel, digits| Quantity {
@@ -74,7 +74,7 @@ pub(super) fn all(studies: &[Study], scores: &ScoreTable) -> Vec<(String, Table)
     made.map(|(name, table)| (name.to_owned(), table)).collect()
 }
 
-/// One metric for every plane.
+/// Quantities of one metric, one for each plane.
 fn of_planes(metric: &'static str) -> [Quantity; 4] {
     VARIABLES.map(|channel| Quantity {
         name: Words::new(channel).latex(latex_symbol(channel)),
@@ -84,14 +84,14 @@ fn of_planes(metric: &'static str) -> [Quantity; 4] {
     })
 }
 
-/// True if a cell has a number of the study.
+/// True if a cell has a value that the TacEva study prints.
 fn has_printed(table: &Table) -> bool {
     let mut cells = table.rows.iter().flat_map(|row| &row.cells);
     cells.any(|cell| matches!(cell, Cell::Estimate(estimate) if estimate.remark.is_some()))
 }
 
 impl Sheet<'_> {
-    /// One row for each quantity, one column for each sensor.
+    /// Table with one row for each quantity and one column for each sensor.
     fn of_figure(&self, caption: &str, quantities: &[Quantity]) -> Table {
         let rows = quantities.iter().map(|of| {
             let cells = 0..self.studies.len();

@@ -1,4 +1,4 @@
-//! Tables I to V of the study.
+//! Tables I to V of the TacEva study.
 
 use super::beside::{Digits, beside, cell};
 use crate::catalogue::{Sensor, find};
@@ -10,7 +10,7 @@ use crate::table::{HEAD_PT, NAME_PT, SMALL_SIZE, VALUE_SIZE};
 use crate::variables::VARIABLES;
 use taceva_metrics::Better;
 
-/// Table of the study, or the data that it lacks.
+/// Table of the TacEva study, or the data that it lacks.
 pub(super) struct Made {
     pub(super) number: usize,
     pub(super) table: Option<Table>,
@@ -19,7 +19,7 @@ pub(super) struct Made {
 
 /// Force variables, then position variables: the order in the calibration and lighting tables.
 const BLOCKS: [[&str; 2]; 2] = [["Fxy", "Fz"], ["Pxy", "Pz"]];
-/// Light scenes.
+/// Names of the light scenes of the TacEva study.
 pub(super) const SCENES: [&str; 4] = ["S1", "S2", "S3", "S4"];
 
 /// All tables, in order.
@@ -46,7 +46,7 @@ pub(super) fn all(studies: &[Study], scores: &ScoreTable) -> [Made; 5] {
     ]
 }
 
-/// True if a cell has a number of the given results. Numbers that the paper prints do not count.
+/// True if a cell has a value of the given results. Values that the TacEva study prints do not count.
 pub(super) fn has_values(table: &Table) -> bool {
     let mut cells = table.rows.iter().flat_map(|row| &row.cells);
     cells.any(|cell| matches!(cell, Cell::Estimate(of) if !matches!(of.formatted.value.as_str(), "" | "–")))
@@ -58,7 +58,7 @@ pub(super) struct Sheet<'a> {
     pub(super) scores: &'a ScoreTable,
 }
 
-/// Number of `fact` in Table I of the study; `None` if absent.
+/// Value of `fact` in Table I of the TacEva study; `None` if absent.
 fn fact_of_study(sensor: &Sensor, fact: &str) -> Option<f64> {
     let of = |metric: &str, channel: &str| {
         let mut results = sensor.results.iter().filter(|of| of.source == "study");
@@ -162,7 +162,7 @@ impl Sheet<'_> {
         table
     }
 
-    /// One row for each plane, one column for each sensor.
+    /// Table with one row for each plane and one column for each sensor.
     fn of_planes(&self, metric: &str, caption: &str) -> Table {
         let sensors = self.names().iter().map(|name| number_column(name));
         let mut table = self.table(caption, [column("plane")].into_iter().chain(sensors));

@@ -92,9 +92,9 @@ pub struct ChannelError {
     pub channel: String,
     /// Unit of error and interval.
     pub unit: Unit,
-    /// Mean absolute error.
+    /// Mean absolute error, in `unit`.
     pub mae: f64,
-    /// 95 % interval by contact point; `None` with too few points.
+    /// 95 % interval by contact point, in `unit`; `None` with too few points.
     pub ci95: Option<[f64; 2]>,
     /// Number of samples.
     pub n: u64,

@@ -1,4 +1,4 @@
-//! Standing of published numbers.
+//! Standing of published numbers in verdicts.
 
 use taceva_metrics::{Standing, catalogue};
 

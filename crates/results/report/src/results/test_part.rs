@@ -5,7 +5,7 @@ use taceva_core::counted;
 use super::Study;
 
 impl Study {
-    /// Number of tested samples and of their clusters, as text: `80 samples in 16 clusters`; `None` without an error of predictions.
+    /// Number of tested samples and of their clusters, as text: `80 samples in 16 clusters`; `None` without scores of prediction errors.
     pub(crate) fn tested_count(&self) -> Option<String> {
         let errors = self.scores.iter();
         let errors = errors.filter(|score| matches!(score.metric.as_str(), "mae" | "skill"));

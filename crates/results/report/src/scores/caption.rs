@@ -87,7 +87,8 @@ impl ScoreTable {
         }
     }
 
-    /// ` on 20 simulated test samples of 3 recordings`; `, as published` for published numbers, which rarely state the number of samples.
+    /// Samples of the caption: ` on 20 simulated test samples of 3 recordings`. Published numbers give `, as published`, because they rarely state
+    /// the number of samples.
     fn samples(&self) -> String {
         let sources: BTreeSet<&str> = self.sources.iter().map(String::as_str).collect();
         if sources.iter().all(|source| *source == "published") {
@@ -141,7 +142,7 @@ impl ScoreTable {
         format!(" on {many}{source}{part}{noun}{each}{groups}{recordings}{points}{held_out}")
     }
 
-    /// Groups of the caption: ` of 5 groups by object`. Empty unless all intervals leave out the same number of groups of one split.
+    /// Groups of the caption: ` of 5 groups by object`. Empty unless all intervals are computed by the same number of groups of one split.
     fn groups(&self) -> String {
         let groups: BTreeSet<Option<&str>> =
             self.about.iter().map(|of| of.group.as_deref()).collect();
@@ -159,7 +160,8 @@ impl ScoreTable {
         }
     }
 
-    /// Clusters of the caption: ` in 20 clusters by contact point`. Empty unless all intervals leave out contact points, in the same number of clusters.
+    /// Clusters of the caption: ` in 20 clusters by contact point`. Empty unless all intervals are computed by contact point, in the same number of
+    /// clusters.
     fn points(&self) -> String {
         let with_interval = self.valued().filter(|cell| cell.ends.is_some());
         let counts: BTreeSet<Option<usize>> = with_interval.map(|cell| cell.points).collect();

@@ -75,7 +75,7 @@ impl ScoreTable {
         tables
     }
 
-    /// One row for each channel and one column for each metric, for one study.
+    /// Sheet with one row for each channel and one column for each metric, for one study.
     fn by_channel(&self) -> Sheet<'_> {
         let mut metrics: Vec<&str> = Vec::new();
         let mut channels: Vec<(&str, Unit)> = Vec::new();
@@ -116,7 +116,7 @@ impl ScoreTable {
         }
     }
 
-    /// One row for each score and one column for each study. A last row has the numbers of samples if they differ.
+    /// Sheet with one row for each score and one column for each study. A last row has the numbers of samples if they differ.
     fn by_study(&self) -> Sheet<'_> {
         let mut lines = Vec::new();
         for row in &self.rows {

@@ -114,7 +114,7 @@ impl ScoreTable {
 }
 
 impl ScoreRow {
-    /// Numbers of the study `name`, in the column order for programs.
+    /// Values of the study `name`, in the column order for programs.
     fn numbers(&self, name: &str, source: &str, cell: &ScoreCell) -> [Cell; 15] {
         [
             Cell::text(name),

@@ -49,7 +49,7 @@ impl Line<'_> {
 struct Note {
     word: &'static str,
     reason: String,
-    /// Scores with the word or mark, by study.
+    /// Scores that have the word or the mark of the note, by study.
     places: Vec<(String, Vec<String>)>,
 }
 
@@ -59,8 +59,9 @@ struct Notes(Vec<Note>);
 impl ScoreTable {
     /// Values of `studies` side by side: one row for each score or published fact, one column for each study.
     ///
-    /// The rows are the main scores and the scores of the first questions; with `is_all`, all scores. If `request` names metrics, the rows are their
-    /// scores. Of the variants, only those that answers compare have a row. A short word replaces an absent value, and a note states the reason.
+    /// The rows are the main scores and the scores of the most important questions; with `is_all`, all scores. If `request` names metrics, the rows
+    /// are their scores. Of the variants, only those that answers compare have a row. A short word replaces an absent value, and a note states the
+    /// reason.
     ///
     /// ```
     /// use taceva_report::{CompareRequest, ScoreTable, catalogue};

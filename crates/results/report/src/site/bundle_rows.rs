@@ -1,4 +1,4 @@
-//! Numbers of bundles on pages, each with its authors, its samples, and the depth of its verification.
+//! Values from bundles on pages, each with its authors, its samples, and the depth of its verification.
 
 use std::collections::BTreeMap;
 
@@ -16,13 +16,13 @@ pub(super) const FILE: &str = "measured.html";
 const NOTE: &str = "Numbers of different samples or definitions are not comparable, and none is ranked. A grey number has no interval. A seal is a \
                     digest, not a signature.";
 
-/// Number of a bundle, with its sensor.
+/// Value from a bundle, with its sensor.
 struct Entry<'a> {
     sensor: &'a Sensor,
     row: &'a Measured,
 }
 
-/// Page with the numbers of all bundles and their filters; `None` if there are none.
+/// Page with the values from all bundles and their filters; `None` if there are none.
 pub(super) fn page(sensors: &[Sensor]) -> Option<SitePage> {
     let all: Vec<&Sensor> = sensors.iter().filter(|own| own.has_bundles()).collect();
     if all.is_empty() {
@@ -40,7 +40,7 @@ pub(super) fn page(sensors: &[Sensor]) -> Option<SitePage> {
     })
 }
 
-/// Adds the numbers of the bundles of `sensors` to a page, with one section for each origin.
+/// Adds the values from the bundles of `sensors` to a page, with one section for each origin.
 pub(super) fn add_sections(document: &mut Document, sensors: &[Sensor]) {
     for origin in Origin::ALL {
         let mut entries: Vec<Entry<'_>> = Vec::new();

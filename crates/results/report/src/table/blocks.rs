@@ -1,4 +1,4 @@
-//! Divides tables wider than a paper into blocks of columns.
+//! Divides tables wider than a page of a paper into blocks of columns.
 
 use super::room::{GAP_PT, letters_pt};
 use super::{Cell, Row, Table};
@@ -19,7 +19,7 @@ impl Table {
         columns.map(|column| self.column_pt(column)).sum()
     }
 
-    /// Parts of at most `width_pt`, with about equally many columns of values. Each block repeats the columns of names.
+    /// Blocks of at most `width_pt`, with about equally many columns of values. Each block repeats the columns of names.
     pub(super) fn blocks(&self, width_pt: f64) -> Vec<Table> {
         let names = (0..self.columns.len())
             .take_while(|column| self.has_only_text(*column))

@@ -29,7 +29,7 @@ pub struct Estimate {
     pub remark: Option<String>,
     /// Sign after the value, explained by a note; empty without a sign.
     pub mark: &'static str,
-    /// True if significantly better than all other cells of the row.
+    /// True if the value is significantly better than all other cells of the row.
     pub is_best: bool,
 }
 

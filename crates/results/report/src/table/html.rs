@@ -6,9 +6,9 @@ use super::{Cell, Column, Direction, Row, Table};
 use crate::escape;
 use crate::markup::{metric_link, scroll};
 
-/// Maximum length of a cell without wrapping, in characters.
+/// Length of the longest cell above which a column wraps, in characters.
 const LONG: usize = 28;
-/// Maximum length of a cell without wide wrapped lines, in characters.
+/// Length of the longest cell above which a column wraps to wide lines, in characters.
 const VERY_LONG: usize = 70;
 
 impl Table {

@@ -4,7 +4,7 @@ use super::room::{COLUMN_PT, PAGE_PT, breakable};
 use super::{Row, Table, Words};
 use crate::escape::{LETTER, LETTER_DEFINITION, latex as escape};
 
-/// Greatest total number of letters in column names with the font size of numbers, in a page column.
+/// Number of letters in all column names above which the names are smaller than the numbers, in a page column.
 const LETTERS: usize = 28;
 /// Number of columns above which numbers in a page column are smaller.
 const COLUMNS: usize = 5;
@@ -149,7 +149,7 @@ fn line(indent: &str, cells: &[String]) -> String {
     format!("{indent}{} \\\\\n", cells.join(" & "))
 }
 
-/// Line below a row with intervals.
+/// Line of LaTeX with the intervals of a row, below its values.
 fn below(indent: &str, row: &Row) -> String {
     let cells: Vec<Option<String>> = row.cells.iter().map(|cell| cell.latex_below()).collect();
     if cells.iter().flatten().all(String::is_empty) {

@@ -4,7 +4,7 @@ use taceva_metrics::{ClusterSum, ClusterSums, Difference, Sides, SignFlip};
 
 use super::Subject;
 
-/// 2⁴⁰. The part of each cluster in a score is rounded to a multiple of about 1/2⁴⁰ of [`Parts::greatest`].
+/// Divisor 2⁴⁰. The part of each cluster in a score is rounded to a multiple of about 1/2⁴⁰ of [`Parts::greatest`].
 const FINE: f64 = 1_099_511_627_776.0;
 
 /// Tests the difference of two scores by the signs of the clusters, or returns the reason why this is impossible.
@@ -52,7 +52,7 @@ struct Parts {
     greatest: f64,
 }
 
-/// Part of one cluster.
+/// Part of one cluster in a score.
 struct Part {
     name: String,
     count: u64,

@@ -26,7 +26,7 @@ struct Line<'a> {
 }
 
 impl TaskComparison {
-    /// Names of the results.
+    /// Name of the result at position `at`.
     fn name(&self, at: usize) -> &str {
         &self.results[at].name
     }
@@ -97,7 +97,7 @@ impl TaskComparison {
         table
     }
 
-    /// One row for each answer.
+    /// Table with one row for each answer.
     pub fn table(&self) -> Table {
         let columns = [
             "task",
@@ -266,7 +266,7 @@ fn ends(difference: &Difference) -> String {
     format!("{low} … {high}")
 }
 
-/// Distinct texts in their order, separated by semicolons.
+/// Distinct texts in the given order, separated by semicolons.
 fn distinct(texts: impl Iterator<Item = String>) -> String {
     taceva_core::distinct(texts).join("; ")
 }

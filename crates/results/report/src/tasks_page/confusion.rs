@@ -14,7 +14,7 @@ use crate::table::{Cell, Column, Table};
 
 /// Greatest number of classes of a drawn matrix.
 const MOST_CLASSES: usize = 12;
-/// Number of listed pairs of more classes.
+/// Number of listed pairs if there are too many classes for a matrix.
 const PAIRS: usize = 20;
 /// Width for the names of the true classes, canvas units.
 const LEFT: f64 = 150.0;
@@ -34,7 +34,7 @@ impl Pair {
         self.count as f64 / self.of_row as f64
     }
 
-    /// `12 of 15 (80 %)`.
+    /// Count and share as text: `12 of 15 (80 %)`.
     fn words(self) -> String {
         let share = numeral(self.share() * 100.0);
         format!("{} of {} ({share} %)", self.count, self.of_row)

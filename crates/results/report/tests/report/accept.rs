@@ -15,7 +15,7 @@ const VALUE: f64 = 0.5;
 const LOW: f64 = 0.375;
 const HIGH: f64 = 0.75;
 
-/// A study of one `mae` of Fz with a variant, a known interval, and an unknown one.
+/// Study with `mae` of three channels: Fz with an interval and a variant, Fx without an interval, Fy without a value.
 fn study() -> Study {
     let json = json!({
         "schema": "taceva.evaluation/1.0",

@@ -36,7 +36,7 @@ pub(crate) fn study(sensor: &str, scores: &[(&str, &str, Value)], channels: &[&s
     support::study(&json)
 }
 
-/// Studies of one error of Fz with skill, from the worst to the best, with large differences.
+/// Studies with skill, each with one mean absolute error of Fz from `values`.
 pub(crate) fn errors(values: &[(&str, f64)]) -> Vec<Study> {
     let of = |&(sensor, value): &(&str, f64)| {
         study(sensor, &[("mae", "Fz", score(value, 0.01, "N"))], &["Fz"])

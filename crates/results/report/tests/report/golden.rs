@@ -53,7 +53,7 @@ fn hold(name: &str, found: &str) {
     assert_eq!(found.len(), expected.len(), "{name}");
 }
 
-/// Numbers, and the text between them.
+/// Splits `text` into numbers and the text between them.
 fn parts(text: &str) -> Vec<String> {
     let mut parts: Vec<String> = Vec::new();
     let mut was_number = false;

@@ -36,7 +36,7 @@ fn tables(studies: &[Study]) -> Vec<Table> {
     scores.for_column(&scores.caption())
 }
 
-/// The tables as LaTeX; asserts that each fits a column.
+/// Main tables of `studies` as LaTeX. Asserts that each table fits a column.
 fn latex(name: &str, studies: &[Study]) -> String {
     let text = text(studies);
     assert_fits_a_column(name, &text);

@@ -13,7 +13,7 @@ const HEAD: &str = "\\documentclass{article}\n\\usepackage{booktabs}\n\
 const COLUMNS: &str = "\\documentclass[10pt,twocolumn]{article}\n\\usepackage{booktabs}\n\
                        \\textwidth=516pt\n\\columnsep=12pt\n\\oddsidemargin=-20pt\n\\begin{document}\n";
 
-/// IEEE journal, whose columns are also 252 pt wide, in a narrower font.
+/// Preamble of an IEEE journal, whose columns are also 252 pt wide, in a narrower font.
 #[allow(dead_code, reason = "another test program has no table for a column")]
 const JOURNAL: &str =
     "\\documentclass[journal]{IEEEtran}\n\\usepackage{booktabs}\n\\begin{document}\n";
@@ -57,7 +57,7 @@ fn has_journal() -> bool {
     found.is_ok_and(|found| found.status.success())
 }
 
-/// Log of `engine` for `table` after `head`; `None` if it is not installed.
+/// Log of `engine` for `table` after `head`; `None` if the engine is not installed.
 fn compile(engine: &str, name: &str, head: &str, table: &str) -> Option<String> {
     let folder = tempfile::tempdir().expect("a folder");
     let text = format!("{head}{table}\\end{{document}}\n");

@@ -6,7 +6,7 @@ use taceva_report::{FigureStyle, PaperForm, Study, paper_form, study_figures};
 use crate::paper::assert_fits_a_column;
 use crate::support;
 
-/// Sensors of the study in another order.
+/// Sensors of the TacEva study in another order.
 const SENSORS: [&str; 4] = ["GelSight", "GelSightWM", "MagicTac", "ViTacTip"];
 
 /// A synthetic result of a sensor with light scenes.

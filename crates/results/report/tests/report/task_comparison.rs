@@ -1,11 +1,11 @@
-//! Comparisons of scores of tasks beside the test of their counts.
+//! Tests of task comparisons against direct tests of the counts behind the scores.
 
 use taceva_metrics::{ClusterSums, Sides, SignFlip};
 use taceva_report::{TaskComparison, TaskResult};
 use taceva_tasks::pose::{Pose, PoseState, PoseTask, Rotation};
 use taceva_tasks::{Classes, TaskReport, TaskState};
 
-/// Wrong samples of each object by model A and by model B. Two objects have as many.
+/// Number of samples of each object that models A and B predict wrongly. For two objects, both numbers are equal.
 const WRONG: [[usize; 2]; 10] = [
     [1, 2],
     [1, 3],
@@ -19,7 +19,7 @@ const WRONG: [[usize; 2]; 10] = [
     [0, 2],
 ];
 
-/// Samples of the object at `at`, half of them of each class.
+/// Number of samples of the object at position `at`. Half of them are of each class.
 fn samples(at: usize) -> usize {
     20 + 2 * at
 }
@@ -31,7 +31,7 @@ fn result(name: &str, state: TaskState) -> TaskResult {
     TaskResult::of(name, &report).expect("a report")
 }
 
-/// Result of the model at `model`, and its right samples by object.
+/// Result of the model at position `model`, and its number of right samples by object.
 fn grasps(model: usize) -> (TaskResult, ClusterSums) {
     let mut classes = Classes::new(["lost", "held"], Some("held")).expect("two names");
     let mut hits = ClusterSums::default();

@@ -1,4 +1,4 @@
-//! Pages of the scores of tasks.
+//! Tests of the page of the scores of tasks.
 
 use taceva_report::{Picture, task_page};
 use taceva_tasks::{Classes, Ranking, TaskReport, TaskScores, WorstSample};
@@ -9,7 +9,7 @@ fn report_of(task: TaskScores) -> TaskReport {
     report
 }
 
-/// Task of classes of 5 clips with these counts of a true and a predicted class.
+/// Task of classes over 5 clips. `counts` has true classes, predicted classes and numbers of samples.
 fn classes(names: &[&str], counts: &[(&str, &str, usize)]) -> TaskScores {
     let mut classes = Classes::new(names.iter().copied(), None).expect("names");
     for (truth, predicted, count) in counts {

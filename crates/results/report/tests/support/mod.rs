@@ -69,7 +69,7 @@ fn state_standings(metrics: &mut Value) {
     }
 }
 
-/// A synthetic study with `sensor` in every name field, `rows` samples of the calibration, and some of every other part.
+/// A synthetic study with `sensor` in every name field, `rows` samples of the calibration phase, and some samples of every other phase.
 pub(crate) fn drawn(sensor: &str, rows: usize, scale: f64) -> Study {
     let mut study = study(&results(sensor, scale));
     study.samples = Some(Samples::read(&samples(sensor, rows, scale)).expect("samples"));

@@ -1,4 +1,4 @@
-//! Tests of the display and of questions, without waiting for clients.
+//! Tests of the content of the page and of questions. Slow clients delay neither.
 
 use std::time::{Duration, Instant};
 

@@ -62,7 +62,7 @@ impl Opened {
         answer
     }
 
-    /// Header lines of the page itself.
+    /// Header lines that the page sends with a request: host, origin and token.
     pub(crate) fn own(&self) -> String {
         let (address, token) = (self.address(), self.token());
         format!("Host: {address}\r\nOrigin: http://{address}\r\nX-Taceva-Token: {token}\r\n")

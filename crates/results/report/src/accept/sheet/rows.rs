@@ -69,7 +69,7 @@ impl Acceptance<'_> {
         self.findings.iter().any(|check| check.process.is_some())
     }
 
-    /// Table with the uncertainty, the coverage factor and the decision rule for each value.
+    /// Table with the uncertainty, the coverage factor and the decision rule for the score of each limit.
     pub(super) fn uncertainties(&self) -> Table {
         let names = [
             "channel", "value", "unit", "u", "nu", "k", "U", "p_c", "rule",
@@ -98,7 +98,7 @@ impl Acceptance<'_> {
         table
     }
 
-    /// Remarks on rules, for a file with decision rules.
+    /// Remarks on the decision rules of the limits file.
     pub(super) fn rule_notes(&self) -> Vec<String> {
         if !self.limits.is_by_rules() {
             return Vec::new();
@@ -130,7 +130,7 @@ impl Acceptance<'_> {
         notes
     }
 
-    /// Remarks on limits that name no variant and therefore apply to the variant that verdicts use, one for each metric.
+    /// Remarks, one for each metric, on limits without a variant. Such a limit applies to the variant that verdicts use.
     pub(super) fn variant_notes(&self) -> Vec<String> {
         let notes = self.findings.iter().filter_map(|check| {
             let Limit {
@@ -167,7 +167,7 @@ fn name_of(check: &LimitCheck) -> String {
     format!("{} {}", check.limit.metric, check.limit.channel)
 }
 
-/// Scale and effect of the guard bands of limits with one rule; empty if no guard band has a logarithmic scale.
+/// Scale and effect of the guard bands of limits with the same rule; empty if no guard band has a logarithmic scale.
 fn guards_of(checks: &[&LimitCheck]) -> String {
     let guards = checks.iter().filter_map(|check| {
         let guard = check.guard.as_ref()?;

@@ -7,7 +7,7 @@ use crate::accept::{LimitsFile, accept};
 use crate::table::Row;
 use taceva_results::Samples;
 
-/// Simulated unit with two errors: 0.5 N with the interval 0.375 N to 0.75 N, and 0.25 mm without an interval.
+/// Simulated unit with two mean absolute errors: 0.5 N with the interval 0.375 N to 0.75 N, and 0.25 mm without an interval.
 fn study() -> Study {
     let studies = crate::results::unsealed(
         r#"{"schema": "taceva.evaluation/1.0",
@@ -24,13 +24,13 @@ const KEPT: &str = "metric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nmost = 1.5
 const BROKEN: &str = "metric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nleast = 0.25\nmost = 0.625\nwhole_interval = true";
 const MISSING: &str = "metric = \"mae\"\nchannel = \"Fx\"\nunit = \"N\"\nleast = 0.25";
 
-/// A file of limits below `head`, and the checks of its limits.
+/// Limits file, and the check of each of its limits.
 struct Held {
     limits: LimitsFile,
     findings: Vec<LimitCheck>,
 }
 
-/// Findings for `limits` of version 1.
+/// Checks each of `limits` in a file of version 1.
 fn held(study: &Study, limits: &[&str]) -> Held {
     held_below("name = \"batch 3\"", study, limits)
 }

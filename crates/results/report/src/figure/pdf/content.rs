@@ -1,4 +1,4 @@
-//! Draws marks as page operators.
+//! Draws marks as page operators of PDF.
 
 use std::collections::BTreeSet;
 
@@ -171,12 +171,12 @@ pub(super) fn state_name(hundredths: u8) -> String {
     format!("G{hundredths}")
 }
 
-/// Factor, rounded to a millionth for the file.
+/// Scale factor rounded to a millionth, for the PDF file.
 fn factor(value: f64) -> f32 {
     single((value * 1e6).round() / 1e6)
 }
 
-/// Number, rounded to a hundredth for the file.
+/// Coordinate or length rounded to a hundredth, for the PDF file.
 pub(super) fn number(value: f64) -> f32 {
     single((value * 100.0).round() / 100.0)
 }

@@ -47,7 +47,7 @@ impl Face {
         }
     }
 
-    /// Width of vertical stems, in thousandths of the size.
+    /// Width of vertical stems, in thousandths of the font size.
     pub(super) fn stem(self) -> f32 {
         match self {
             Face::Regular | Face::EastAsian => 88.0,

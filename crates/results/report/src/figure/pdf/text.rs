@@ -20,7 +20,7 @@ pub(super) struct Used {
 }
 
 impl Used {
-    /// Font without used glyphs.
+    /// Creates the entry of a font without used glyphs.
     pub(super) fn none_of(face: Face) -> Used {
         Used {
             face,

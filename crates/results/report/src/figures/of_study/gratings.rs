@@ -1,4 +1,4 @@
-//! Figure 3c: success rate of gratings over the tolerance and over the spacing.
+//! Figure 3c of the TacEva study: success rate of gratings over the tolerance and over the spacing.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use super::super::overlay::{Level, Line, Sheet, Ways, Words, draw as overlay};
 use crate::figure::{Figure, directed};
 use crate::results::Study;
 
-/// Tolerance of the study, and the greatest drawn tolerance, in nm.
+/// Tolerance of the TacEva study, and the greatest drawn tolerance, in nm.
 const TOLERANCE_NM: f64 = 50_000.0;
 const STEP_NM: f64 = 10_000.0;
 const STEPS: u32 = 25;

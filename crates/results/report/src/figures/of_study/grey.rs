@@ -1,4 +1,4 @@
-//! Figure 6b: error of each plane against the mean grey level of the frames, with one dot for each light scene.
+//! Figure 6b of the TacEva study: error of each plane against the mean grey level of the frames, with one dot for each light scene.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::results::Study;
 use crate::variables::VARIABLES;
 use taceva_results::Samples;
 
-/// Sums over the samples of a scene.
+/// Sums over the samples of a light scene.
 #[derive(Default)]
 struct Sums {
     grey: f64,

@@ -1,4 +1,4 @@
-//! Figure 5: errors over normalised radius and depth, with one panel for each plane.
+//! Figure 5 of the TacEva study: errors over normalised radius and depth, with one panel for each plane.
 
 use taceva_core::Unit;
 use taceva_metrics::{Curve, plane_axes};

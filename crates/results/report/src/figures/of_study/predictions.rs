@@ -1,5 +1,5 @@
-//! Figure 7a: predictions of repeated presses, with one panel for each plane. A panel of a lateral plane shows one axis against the other. A panel of a normal
-//! axis shows predictions over the depth.
+//! Figure 7a of the TacEva study: predictions of repeated presses, with one panel for each plane. A panel of a lateral plane shows one axis against
+//! the other. A panel of a normal axis shows predictions over the depth.
 
 use taceva_core::Unit;
 
@@ -31,7 +31,7 @@ enum Across {
     Depth,
 }
 
-/// Planes in the order of the study.
+/// Planes in the order of the TacEva study.
 const PANELS: [Plane; 4] = [
     Plane {
         name: "Pxy",
@@ -65,7 +65,7 @@ struct Cloud {
 /// One prediction.
 struct Dot {
     at: [f64; 2],
-    /// Truth minus prediction on the vertical axis; 0 if the truth is unknown.
+    /// Prediction error in the channel on the vertical axis, truth minus prediction; 0 if the truth is unknown.
     error: f64,
     /// Contact point and depth step of the press, as text.
     press: String,

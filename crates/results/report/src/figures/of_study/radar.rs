@@ -1,4 +1,4 @@
-//! Radars of given values, including values that verdicts exclude.
+//! Radar charts of given values, including values that verdicts exclude.
 
 use taceva_metrics::Better;
 
@@ -6,7 +6,7 @@ use super::super::radar::{Rim, WIDTH, outline, shares, web};
 use crate::figure::{Canvas, Figure};
 use crate::results::Study;
 
-/// Axis of a radar, with one given value for each study.
+/// Axis of a radar chart, with one given value for each study.
 pub(super) struct Spoke {
     /// Name of the axis. The first word has its own line.
     pub(super) name: String,
@@ -14,7 +14,7 @@ pub(super) struct Spoke {
     pub(super) values: Vec<Option<f64>>,
 }
 
-/// Draws a radar of `spokes`; `None` without any value.
+/// Draws a radar chart of `spokes`; `None` without any value.
 pub(super) fn draw_spokes(
     studies: &[Study],
     spokes: &[Spoke],

@@ -1,4 +1,5 @@
-//! Figure 7b: repeatability over the depth in mm, with one panel for each sensor. Positions use the left axis, forces the right axis.
+//! Figure 7b of the TacEva study: repeatability over the depth in mm, with one panel for each sensor. Positions use the left axis, forces the right
+//! axis.
 
 use std::collections::BTreeMap;
 

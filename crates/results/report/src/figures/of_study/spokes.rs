@@ -1,5 +1,5 @@
-//! Figures 8a to 8c: radars of the quantities that the study prints, averaged over positions and forces. A mark identifies values at or below their noise
-//! floor.
+//! Figures 8a to 8c of the TacEva study: radar charts of its quantities, averaged over positions and forces. A mark identifies values at or below
+//! their noise floor.
 
 use taceva_metrics::{Better, Standing};
 
@@ -8,7 +8,7 @@ use crate::figure::Figure;
 use crate::names::listed;
 use crate::results::Study;
 
-/// A quantity of the study: the mean of a metric over channels.
+/// A quantity of the TacEva study: the mean of a metric over channels.
 struct Quantity {
     name: &'static str,
     metric: &'static str,

@@ -1,4 +1,4 @@
-//! Limits of version 2, decided by rules.
+//! Tests of limits of version 2, which rules decide.
 
 use serde_json::json;
 use taceva_metrology::conformity::Word;
@@ -6,7 +6,8 @@ use taceva_report::{AcceptError, LimitCheck, LimitsFile, Study, accept, limits_t
 
 use crate::support;
 
-/// An error of 0.082 N with a standard uncertainty of a tenth of it from 97 clusters, and R² beside it; an error without an interval.
+/// Study with three mean absolute errors: of Fz with a standard uncertainty of 10 % from 97 clusters, of Fx without an interval, of Fy without
+/// skill.
 pub(super) fn study() -> Study {
     let clusters = "jackknife by point_id, G=97, logarithmic";
     let json = json!({

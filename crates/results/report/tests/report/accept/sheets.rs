@@ -1,4 +1,4 @@
-//! Data sheets of limits that are decided by rules, and of results that were edited, in every format.
+//! Tests of data sheets of limits that rules decide, and of edited results, in every format.
 
 use serde_json::Value;
 use taceva_report::{Acceptance, Layout, LimitCheck, LimitsFile, Study, accept};

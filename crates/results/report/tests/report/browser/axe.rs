@@ -31,7 +31,7 @@ fn found_by_node() -> Result<PathBuf, String> {
     }
 }
 
-/// Fails if axe-core finds a violation on the open page in light or dark mode, or if it misses a planted one.
+/// Fails if axe-core finds a violation on the open page in light or dark mode, or does not find a planted violation.
 pub(crate) fn assert_accessible(browser: &mut Browser, axe: &str, page: &str) {
     browser.evaluate(&format!("{axe};0"));
     for scheme in ["light", "dark"] {

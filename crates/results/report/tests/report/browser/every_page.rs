@@ -8,7 +8,7 @@ use taceva_report::{
 use super::{axe, open_page, page_of, print, two};
 use crate::support::{self, drawn};
 
-/// Limits of three metrics for every channel, as for a unit of six channels.
+/// Data sheet with one limit for each metric in `limits_of` and each of the six channels.
 fn sheet(limits_of: &[&str]) -> String {
     let mut text = "limits_version = 1\nname = \"line 3\"\n".to_owned();
     for metric in limits_of {

@@ -1,4 +1,4 @@
-//! Pages on paper.
+//! Counts the printed sheets of a page.
 
 use serde_json::json;
 

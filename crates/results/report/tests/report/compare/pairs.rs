@@ -12,7 +12,7 @@ pub(super) fn sampled(sensor: &str, first: f64, error: f64) -> Study {
     sampled_at(12, sensor, first, error)
 }
 
-/// The same study with its samples at this many contact points.
+/// Study of [`sampled`], with its samples at `points` contact points.
 pub(super) fn sampled_at(points: u32, sensor: &str, first: f64, error: f64) -> Study {
     let mut table = String::from("id,point_id,Fz,Fz_predicted\n");
     let (mut sum, rows) = (0.0, 48);

@@ -14,7 +14,7 @@ fn recorded(sensor: &str) -> Study {
     }
 }
 
-/// The section of a page; empty without one.
+/// Metrology section of the page of `studies`; empty without this section.
 fn section(studies: &[Study]) -> String {
     let page = page(studies);
     let section = page.split("<section id=\"metrology\"").nth(1);
