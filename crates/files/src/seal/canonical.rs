@@ -13,7 +13,7 @@ pub(crate) enum Canonical {
     Bool(bool),
     /// Whole number; `2.0` and `2` are equal.
     Whole(i128),
-    /// Bits of any other number.
+    /// Number that is not whole, as the bits of its `f64`.
     Real(u64),
     Text(String),
     List(Vec<Canonical>),

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Accepted edit.
+/// Edit of a sealed file that a person accepted.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Edit {

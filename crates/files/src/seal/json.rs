@@ -42,7 +42,7 @@ pub fn check(text: &str) -> Result<Opened, SealError> {
     check_with(text, &[])
 }
 
-/// Checks `text` like [`check`], for a file sealed with the same bytes outside the text.
+/// Checks `text` like [`check`], for a file that [`seal_with`] sealed with the bytes `attached`.
 ///
 /// # Errors
 /// Errors of [`check`].

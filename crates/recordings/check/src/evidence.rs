@@ -57,7 +57,8 @@ impl Evidence<'_> {
             .find_map(|name| channels.position(name))
     }
 
-    /// For each row, false if its depth label shows contact. If all depths are positive, they may be positions, and all rows are true.
+    /// For each row, false if its depth label shows contact. If every row has a depth and seems to be in contact, the depths may be positions, and
+    /// all rows are true.
     pub(crate) fn without_depth(&self) -> Vec<bool> {
         let rows = self.table.rows();
         let Some(depth) = self.table.channels().position("Pz") else {
@@ -105,7 +106,7 @@ pub struct FrameFacts {
     pub zero: f64,
     /// True if all pixels are equal.
     pub is_flat: bool,
-    /// Mean absolute difference from the frame without contact; `None` without a frame of the same size.
+    /// Mean absolute difference from the frame without contact, over all pixels and colours; `None` without a frame of the same size.
     pub distance: Option<f64>,
     /// Mean brightness of square tiles, each an eighth of the width wide.
     pub tiles: Tiles,

@@ -11,13 +11,13 @@ const THIRD: f64 = 1.0 / 3.0;
 /// Values are fractions of the full scale of the pixel format.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RestChange {
-    /// Mean change over all tiles.
+    /// Mean change of the untouched picture, over all tiles.
     pub mean: f64,
-    /// Maximum change of a single tile.
+    /// Maximum change of a tile of the untouched picture.
     pub greatest: f64,
-    /// Median of the mean changes by contact.
+    /// Mean change by contact, over all tiles; the median over the pictures with contact.
     pub contact_mean: f64,
-    /// Median of the maximum changes of a tile by contact.
+    /// Maximum change of a tile by contact; the median over the pictures with contact.
     pub contact_greatest: f64,
 }
 
@@ -36,12 +36,12 @@ impl RestChange {
         (is_known && has_contact).then_some(found)
     }
 
-    /// True if the mean change exceeds a third of the mean change by contact.
+    /// True if the mean change exceeds a third of `contact_mean`.
     pub fn is_overall(&self) -> bool {
         self.mean > THIRD * self.contact_mean
     }
 
-    /// True if the maximum change of a tile exceeds the maximum change by contact.
+    /// True if the maximum change of a tile exceeds `contact_greatest`.
     pub fn is_local(&self) -> bool {
         self.greatest > self.contact_greatest
     }

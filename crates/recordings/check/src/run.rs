@@ -194,7 +194,7 @@ fn of_tasks(
     divided.collect()
 }
 
-/// True if any of `wanted` reads `field` for every sample, and `dataset` has this field.
+/// True if `dataset` has `field`, and any of `wanted` reads this field of every sample.
 fn reads(dataset: &Dataset, wanted: &[&Check], field: Field) -> bool {
     let of_all = |check: &&&Check| check.code == blank::CHECK.code;
     let mut checks = wanted.iter();

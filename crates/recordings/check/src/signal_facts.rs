@@ -27,7 +27,7 @@ pub struct SignalFacts {
     pub rest_rows: Vec<usize>,
     /// Mean over the rows without contact; `None` if no row is declared so.
     pub rest: Option<Signals>,
-    /// Mean absolute difference of each row from `rest`, in the unit of the signals; empty without `rest`.
+    /// Difference of each row from `rest`, as a mean of absolute values over the taxels, in the unit of the signals; empty without `rest`.
     pub distance: Vec<f64>,
 }
 

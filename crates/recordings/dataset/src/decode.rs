@@ -37,7 +37,7 @@ pub enum ChannelOrder {
 }
 
 impl ChannelOrder {
-    /// Name of the order in files.
+    /// Name of this order, as written in files.
     pub const fn name(self) -> &'static str {
         match self {
             ChannelOrder::Rgb => "rgb",
@@ -297,7 +297,8 @@ fn most_of(file: &[u8]) -> usize {
 
 /// Converts `bytes`, the decoded size of the image in `file`, to `usize`.
 ///
-/// # Errors Error message if the decoded size exceeds the limit of [`most_of`].
+/// # Errors
+/// Error message if the decoded size exceeds the limit of [`most_of`].
 fn checked_length(bytes: u64, file: &[u8]) -> Result<usize, String> {
     let length = usize::try_from(bytes).map_err(|_| "the image exceeds the address space")?;
     match length <= most_of(file) {

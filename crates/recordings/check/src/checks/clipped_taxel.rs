@@ -31,7 +31,7 @@ const FAR: f32 = 0.25;
 #[derive(Clone, Copy)]
 struct End {
     own: ValueCount,
-    /// Nearest other value.
+    /// Value of this taxel that is nearest to the end.
     next: f32,
     /// True if the value is far from all others, such as a code for "nothing measured".
     is_code: bool,

@@ -17,7 +17,7 @@ pub(super) static CHECK: Check = Check {
 
 /// Lengths of steps that count as gaps, in frame periods. Longer steps are pauses.
 const GAP: std::ops::Range<f64> = 1.5..10.5;
-/// Maximum relative deviation of a step from the usual step in a regular stream. `REGULAR` is the minimum fraction of steps within this deviation.
+/// Maximum relative deviation of a step from the median step in a regular stream. `REGULAR` is the minimum fraction of steps within this deviation.
 const NEAR: f64 = 0.25;
 const REGULAR: f64 = 0.75;
 /// In streams with many missing frames, the period is searched near the quantile 1 / `SHORT` of the steps.
@@ -41,7 +41,7 @@ const WARN: f64 = 0.01;
 pub(super) struct Missing {
     /// Number of missing frames, a whole number.
     pub(super) frames: f64,
-    /// Rows after the gaps.
+    /// First row after each gap.
     rows: Vec<usize>,
     /// Number of steps of the stream.
     steps: usize,

@@ -20,7 +20,7 @@ const OF_RECORDING: &str = "look at these samples: a transducer that was overloa
 
 /// Distance of Tukey's outer fences from the quartiles, in interquartile ranges.
 const FENCE: f64 = 3.0;
-/// Minimum gap below the outliers, as a fraction of the distance from the quartile to the label below the gap.
+/// Minimum gap between outliers and other labels, as a fraction of the distance from the upper quartile to the greatest other label.
 const GAP: f64 = 0.5;
 /// Maximum frequency of outliers: one in this many labels. More values are a group.
 const MOST: usize = 20;
@@ -84,7 +84,7 @@ fn drop_line(evidence: &Evidence<'_>, rows: &[usize]) -> String {
     )
 }
 
-/// Pictures of `rows`, as a map names them; `None` if they are not files, or if a row has several pictures.
+/// Pictures of `rows`, as a map names them; `None` if the pictures are not single files, or if a row has several pictures.
 fn pictures_of(evidence: &Evidence<'_>, rows: &[usize]) -> Option<Vec<String>> {
     let header = evidence.header;
     let pictures = header.mapping().pictures;

@@ -20,7 +20,8 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum number of runs of rows with the same label.
 const LEAST: usize = 5;
-/// Minimum median length of a run, rows. Nine in ten runs must be at most `ALIKE` medians long, because levels held on purpose vary more.
+/// Minimum median length of a run, rows. The ninetieth percentile of the lengths is at most `ALIKE` medians, because levels held on purpose vary
+/// more.
 const ROWS: usize = 2;
 const ALIKE: usize = 2;
 
@@ -87,7 +88,8 @@ struct Stretches {
 }
 
 impl Stretches {
-    /// Runs of equal labels of `channels`. `None` if most rows have a different label than their neighbours, or levels were held on purpose.
+    /// Runs of equal labels of `channels`. `None` if there are few runs, if most have one row, or if their lengths vary as for levels held on
+    /// purpose.
     fn of(table: &Table, channels: &[(usize, &Channel)]) -> Option<Stretches> {
         let times = table.t_s();
         let label = |row: usize| -> Option<Vec<u64>> {

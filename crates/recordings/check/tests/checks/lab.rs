@@ -15,7 +15,7 @@ pub(super) const SENSOR: &str =
 pub(super) const PICTURES: &str =
     "[frame]\narray = { file = \"f.npy\" }\nchannel_order = \"gray\"\nreference = \"unknown\"\n";
 
-/// Size of a picture, pixels.
+/// Width of a picture, pixels. `HEIGHT` is its height.
 const WIDTH: u32 = 24;
 const HEIGHT: u32 = 16;
 

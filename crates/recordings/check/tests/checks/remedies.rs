@@ -12,7 +12,7 @@ fn finding<'r>(report: &'r CheckReport, code: &str) -> &'r Finding {
     found.unwrap_or_else(|| panic!("{code}: {:#?}", report.findings))
 }
 
-/// Report on a recording of this program with an unknown gel, a far force and a time that steps back.
+/// Report on a recording of this program with an unknown gel, an outlying force and a time that steps back.
 fn recorded() -> CheckReport {
     let mut recording = Recording::sound();
     recording.facts.gel = "unknown".into();

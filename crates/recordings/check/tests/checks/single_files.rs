@@ -4,7 +4,7 @@ use taceva_check::{CheckReport, Severity};
 
 use super::lab::{SENSOR, imported};
 
-/// Findings of these checks on 25 presses. The log contains the time and the force of each number; `drop` is a section of the map.
+/// Findings of the checks `only` on 25 presses. The log contains the time and the force of each press; `drop` is a section of the map.
 fn checked(time: fn(u32) -> f64, force: fn(u32) -> f64, drop: &str, only: &[&str]) -> CheckReport {
     let fixture = concat!(
         env!("CARGO_MANIFEST_DIR"),

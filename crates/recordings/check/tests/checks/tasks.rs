@@ -1,4 +1,4 @@
-//! Labels of tasks: classes that a part lacks, contradictory labels, quaternions that are no rotations, and clusters in two parts.
+//! Tests of labels of tasks: classes missing from a part, contradictory labels, quaternions without norm 1, and clusters in two parts.
 
 use std::fmt::Write as _;
 use std::num::NonZeroUsize;

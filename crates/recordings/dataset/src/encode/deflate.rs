@@ -300,7 +300,7 @@ mod tests {
         assert!(written == expected(bytes), "{about}, {} bytes", bytes.len());
     }
 
-    /// Bytes from a linear congruential generator, each made from 24 even bits.
+    /// Bytes that `make` computes, each from 24 bits of a linear congruential generator.
     fn bytes(length: usize, make: impl Fn(u32) -> u8) -> Vec<u8> {
         let mut state = 7_u32;
         let mut next = || {

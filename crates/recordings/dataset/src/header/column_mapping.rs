@@ -109,8 +109,8 @@ impl MappedColumn {
     }
 }
 
-/// First column of `new`, from another map, that contradicts `known`: a source column with other settings or for another label. Source columns with
-/// other names are ignored.
+/// First column of `new`, from another map, that contradicts `known`, because the column has another setting or another label there. Source columns
+/// that `known` lacks are ignored.
 pub(super) fn misread(known: &[MappedColumn], new: &[MappedColumn]) -> Option<Misread> {
     new.iter().find_map(|column| {
         let same_label = known.iter().filter(|known| known.label == column.label);

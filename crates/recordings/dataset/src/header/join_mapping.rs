@@ -22,7 +22,7 @@ pub struct MappedJoin {
     /// Pairs for a join by columns: `column of the main table = column of this table`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub on: Vec<String>,
-    /// Time column; for `until`, the column with the number of the main-table row before which a row of this table applies.
+    /// Time column. For `until`, a row of this table applies to rows of the main table before the number in this column.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub column: Option<String>,
     /// Unit of the time column; `None` for other joins.

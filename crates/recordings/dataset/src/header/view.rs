@@ -17,7 +17,7 @@ use super::FramesInfo;
 pub struct ViewInfo {
     /// Name of the view: a letter, then letters, digits or `_`.
     pub name: String,
-    /// Size, colours and number of its frames, and its reference frame.
+    /// Size, colours and number of the frames of this view, and its reference frame.
     #[serde(flatten)]
     pub frames: FramesInfo,
 }

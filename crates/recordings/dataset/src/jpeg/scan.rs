@@ -18,7 +18,7 @@ pub(super) struct Tables {
 /// Header of a scan.
 #[derive(Debug)]
 pub(super) struct Scan {
-    /// By component of the scan: index in the frame, and the numbers of both Huffman tables.
+    /// For each component of the scan, its index in the frame, and the numbers of its DC and AC tables.
     components: Vec<(usize, [usize; 2])>,
     /// First and last coefficient of the band.
     band: [usize; 2],
@@ -293,7 +293,7 @@ struct State {
 }
 
 impl State {
-    /// The DC coefficient of a block.
+    /// Parses the DC coefficient of a block, and rejects a value out of range.
     #[inline]
     fn first(
         &mut self,
@@ -318,7 +318,7 @@ impl State {
         Ok(())
     }
 
-    /// The position of the marker that must follow.
+    /// Position of the marker that must follow the last block.
     fn finish(&self, bits: Bits<'_>) -> Result<usize, String> {
         if self.empty_blocks > 0 {
             return Err("a run of empty blocks beyond the last one".to_owned());
