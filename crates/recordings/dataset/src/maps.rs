@@ -236,7 +236,7 @@ fn check_pixels([rows, columns]: [usize; 2]) -> Result<(), String> {
     }
 }
 
-/// One bit for each pixel, the lowest first.
+/// One bit for each pixel, the lowest first; set for an invalid pixel.
 fn mask(invalid: impl Iterator<Item = bool>) -> Vec<u8> {
     let mut bytes = Vec::new();
     for (pixel, is_invalid) in invalid.enumerate() {

@@ -16,7 +16,7 @@ use crate::decoder_panic::guarded;
 use crate::digest::Digest;
 use crate::error::DatasetError;
 
-/// Maximum number of cached row groups: 64 MiB.
+/// Maximum number of cached row groups, which take 64 MiB.
 const GROUPS: usize = 16;
 
 /// A verified file of signals, shared between threads.

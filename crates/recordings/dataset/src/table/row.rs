@@ -24,7 +24,7 @@ pub struct FrameEntry {
     pub path: String,
     /// Byte range within the file at `path`; `None` for the whole file.
     pub span: Option<Span>,
-    /// Digest of the frame bytes. For a difference, digest of its bytes and of the digest of the first frame of the pack.
+    /// Digest of the frame bytes. For a difference, the digest covers its bytes and the digest of the first frame of the pack.
     pub digest: Digest,
 }
 

@@ -108,7 +108,7 @@ impl TaskColumn {
         }
     }
 
-    /// Translation and rotation vector of each row, part by part; no numbers for labels other than poses.
+    /// Translation and rotation vector of each row, with one column for each component. Labels other than poses give no numbers.
     fn pose_columns(&self) -> Vec<Column> {
         let rows = 0..self.rows();
         let pose = |row: usize| match self.label(row)? {
@@ -173,7 +173,7 @@ impl Table {
         maps[row] = Some(entry);
     }
 
-    /// The same table, for rows with a label of each of `tasks`, which are sorted by name. The table must be empty.
+    /// The same table with a column for the labels of each of `tasks`, sorted by name. The table must be empty.
     ///
     /// # Panics
     /// Panics if the table has rows.
