@@ -6,7 +6,7 @@ use std::fmt;
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use sha2::{Digest as _, Sha256};
 
-/// JSON value without key order, spaces and number format. Duplicate keys are rejected.
+/// JSON value whose digest ignores key order, spaces and number format. Parsing rejects duplicate keys.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Canonical {
     Null,

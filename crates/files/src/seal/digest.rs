@@ -1,4 +1,4 @@
-//! Digests as text.
+//! Text form of SHA-256 digests.
 
 use sha2::{Digest as _, Sha256};
 

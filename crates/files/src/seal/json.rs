@@ -1,4 +1,4 @@
-//! JSON with a seal over all other values as its last key.
+//! JSON text whose last key is a seal over all other values.
 
 use sha2::{Digest as _, Sha256};
 
@@ -90,7 +90,7 @@ pub fn reseal(text: &str, date: &str, reason: &str) -> Result<String, SealError>
     Ok(format!("{}\n", seal(&edited)?.trim_end()))
 }
 
-/// Parsed text: value, seal and digests of the values by key.
+/// JSON text after parsing: all values except the seal, the digests computed from them, and the stored seal.
 struct Parsed {
     rest: Canonical,
     digest: String,

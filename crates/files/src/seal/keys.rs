@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::seal::canonical::Canonical;
 use crate::seal::digest::hexadecimal;
 
-/// Maximum depth of nested keys.
+/// Maximum depth of the nested keys that get a separate digest.
 const LEVELS: usize = 3;
 /// Maximum number of keys. A file with more keys stores no digests of values.
 const MOST: usize = 4_096;

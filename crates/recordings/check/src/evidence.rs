@@ -98,11 +98,11 @@ impl Evidence<'_> {
 /// Values are fractions of the full scale of the pixel format, 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameFacts {
-    /// Means of red, green and blue; for gray, three equal values.
+    /// Means of red, green and blue over all pixels; for gray, three equal values.
     pub mean: [f64; 3],
-    /// Fraction of values at full scale.
+    /// Fraction of the pixel values that are at full scale.
     pub full: f64,
-    /// Fraction of values at zero.
+    /// Fraction of the pixel values that are zero.
     pub zero: f64,
     /// True if all pixels are equal.
     pub is_flat: bool,

@@ -47,12 +47,12 @@ impl RestChange {
     }
 }
 
-/// Median; of two middle numbers, the lower. 0 for no numbers.
+/// Median of `numbers`, or the lower of two middle numbers; 0 without numbers.
 pub(crate) fn lower_median(numbers: impl Iterator<Item = f64>) -> f64 {
     in_order(numbers, |count| count.saturating_sub(1) / 2)
 }
 
-/// Median; of two middle numbers, the upper. 0 for no numbers.
+/// Median of `numbers`, or the upper of two middle numbers; 0 without numbers.
 fn median(numbers: impl Iterator<Item = f64>) -> f64 {
     in_order(numbers, |count| count / 2)
 }

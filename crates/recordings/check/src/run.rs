@@ -176,7 +176,7 @@ pub(crate) fn check_seen(
     })
 }
 
-/// Division that scores each task of classes. A task with a single cluster has no division and cannot be evaluated.
+/// Division used to score each task with classes. A task with a single cluster has no division and cannot be evaluated.
 fn of_tasks(
     dataset: &Dataset,
     request: &CheckRequest,

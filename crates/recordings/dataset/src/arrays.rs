@@ -72,7 +72,7 @@ impl From<Frame> for FrameArray {
 }
 
 impl FrameArrays {
-    /// Copies `frames` of `info` into one array; `None` if a frame has another size or format.
+    /// Copies `frames` of the format `info` into one array; `None` if a frame has another size or format.
     ///
     /// ```
     /// use taceva_core::{FrameInfo, PixelFormat};

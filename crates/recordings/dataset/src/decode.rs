@@ -129,7 +129,7 @@ pub fn check_to_the_end(bytes: &[u8], kind: ImageKind) -> Result<(), String> {
     }
 }
 
-/// Format of a complete image file.
+/// Format of an image file. Returns an error message for an unknown format or a missing end marker.
 pub(crate) fn kind_of_whole(bytes: &[u8]) -> Result<ImageKind, String> {
     let kind = ImageKind::of(bytes)
         .ok_or("neither PNG nor JPEG nor TIFF: its first bytes are those of another format")?;

@@ -13,7 +13,7 @@ use taceva_core::Date;
 use crate::header::RecordingFacts;
 use crate::toml_file::read_toml;
 
-/// Later facts of one recording.
+/// Facts of an unfinished recording that its journal lacks.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct LaterFacts {

@@ -21,7 +21,8 @@ pub(super) static CHECK: Check = Check {
 /// Minimum jump of a clock, as a multiple of the median step between samples. A jump must also exceed `JUMP_S`, s.
 const JUMP_STEPS: f64 = 100.0;
 const JUMP_S: f64 = 1.0;
-/// Maximum frequency of jumps in recordings without contact points: a single jump, or one in this many steps. More jumps are pauses between presses.
+/// Maximum frequency of jumps in recordings without contact points: a single jump, or one in this many steps. More frequent jumps are pauses between
+/// presses.
 const SELDOM: usize = 100;
 /// Maximum 90th percentile of the steps of a regular stream, as a multiple of the median step. Recordings without contact points are searched for
 /// jumps only if they are regular streams.

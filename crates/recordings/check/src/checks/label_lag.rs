@@ -151,7 +151,7 @@ struct Lag {
     standing: f64,
 }
 
-/// Time, s, picture value, and force.
+/// Time, s; change or brightness of the picture; and absolute load.
 type Instant = (f64, f64, f64);
 
 /// Streams of each sensor unit, with the means of the unit subtracted, because units may differ in brightness.

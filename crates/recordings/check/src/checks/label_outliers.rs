@@ -128,8 +128,8 @@ struct Outliers {
     next: f64,
 }
 
-/// Values above Tukey's outer fence and above a gap. The gap must exceed the interquartile range, and [`GAP`] times the tail below it. The second condition
-/// accepts long tails, such as a few presses with much shear.
+/// Values above Tukey's outer fence and above a gap. The gap must exceed the interquartile range, and [`GAP`] times the distance from the upper
+/// quartile to the gap. The second condition accepts long tails, such as a few presses with much shear.
 fn above(mut values: Vec<(f64, usize)>) -> Option<Outliers> {
     if values.len() < LEAST {
         return None;

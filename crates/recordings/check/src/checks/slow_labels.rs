@@ -79,10 +79,10 @@ fn of_join(evidence: &Evidence<'_>, join: &MappedJoin) -> Option<Found> {
     Some(Found::overall(Severity::Warning, message))
 }
 
-/// Runs of consecutive rows with the same label, clock by clock.
+/// Runs of consecutive rows with the same label, for each clock separately.
 struct Stretches {
     all: Vec<Vec<usize>>,
-    /// Total number of rows.
+    /// Number of rows in all runs.
     rows: usize,
     times: Vec<Option<f64>>,
 }
@@ -149,7 +149,7 @@ impl Stretches {
         self.times[row].unwrap_or_default()
     }
 
-    /// Maximum age of a label, s: half a run for `nearest`, a whole run for `before`.
+    /// Maximum age of a label, s: a whole run if the join picks the reading `before`, otherwise half a run.
     fn oldest_s(&self, pick: Option<&str>) -> f64 {
         let spans = self.all.iter().map(|stretch| {
             let (first, last) = (stretch[0], stretch[stretch.len() - 1]);

@@ -16,7 +16,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum number of samples on each side of a step, and in total.
+/// Minimum number of samples on each side of a step. `LEAST` is the minimum number in total.
 const SIDE: usize = 4;
 const LEAST: usize = 8;
 /// Minimum shift of the zero, as a fraction of the 95th percentile of the absolute labels.

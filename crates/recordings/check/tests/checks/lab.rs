@@ -47,7 +47,7 @@ pub(super) fn imported(files: &[(&str, Vec<u8>)], map: &str, only: &[&str]) -> C
     imported_and_split(files, map, only, None)
 }
 
-/// Imports and checks like [`imported`], with this split.
+/// Imports and checks like [`imported`], with the split `split`.
 pub(super) fn imported_and_split(
     files: &[(&str, Vec<u8>)],
     map: &str,

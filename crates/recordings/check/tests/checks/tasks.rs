@@ -27,7 +27,7 @@ fn materials(rows: &str, code: &str) -> CheckReport {
     checked(rows, code, Some("declared"))
 }
 
-/// Findings like those of [`materials`], with this split.
+/// Findings like those of [`materials`], with the split `split`.
 fn checked(rows: &str, code: &str, split: Option<&str>) -> CheckReport {
     let table = format!("part,clip,material\n{rows}");
     let map = format!("{MATERIALS}{SENSOR}");

@@ -218,7 +218,7 @@ mod tests {
         Frame::new(info, bytes.collect()).expect("as long as it says")
     }
 
-    /// Smooth light with noise of two bits.
+    /// Frame with slowly varying brightness and two bits of noise.
     fn noisy(width: u32, height: u32, format: PixelFormat) -> Frame {
         let info = FrameInfo {
             width,

@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Footprint {
-    /// Shape of the outline, which determines the lengths below.
+    /// Shape of the outline. Determines which of the other lengths are present.
     pub shape: Shape,
     /// Radius of a disc, mm; `None` for a rectangle.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -48,7 +48,7 @@ pub struct MappedJoin {
 }
 
 impl MappedJoin {
-    /// Table `name`, joined by `by`. Rows of the main table without a match are rejected.
+    /// Join of the table `name`, of the kind `by`. A row of the main table without a match stops the import.
     pub fn new(name: &str, by: &str) -> MappedJoin {
         MappedJoin {
             name: name.to_owned(),

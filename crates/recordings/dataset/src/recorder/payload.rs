@@ -19,7 +19,7 @@ use crate::signals::WrittenSignals;
 use crate::table::{FrameEntry, Row};
 use crate::toml_file::{parse_toml, toml_error};
 
-/// Facts and channels of a recording.
+/// Facts and channels of a recording, as written in the first journal record.
 #[derive(Serialize, Deserialize)]
 pub(super) struct WrittenStart {
     source: Source,
@@ -133,7 +133,7 @@ pub(super) struct WrittenSample {
     frame: Option<WrittenFrame>,
 }
 
-/// A press with all its samples.
+/// Press with all its samples, as written in the journal.
 #[derive(Serialize, Deserialize)]
 pub(super) struct WrittenPress {
     pub(super) press: String,

@@ -25,7 +25,7 @@ pub struct SignalsReader {
     path: PathBuf,
     info: SignalsInfo,
     file: SerializedFileReader<File>,
-    /// First row of each group, then the number of rows.
+    /// First row of each group, then the total number of rows.
     starts: Vec<u64>,
     /// Recently used groups, the newest last, with values taxel by taxel.
     groups: Mutex<VecDeque<(usize, Arc<Vec<f32>>)>>,
