@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub struct Edit {
     /// Date of the edit: `2026-11-22`.
     pub date: String,
-    /// Digest before the edit, or `unsealed`.
+    /// Digest of the content before the edit, or `unsealed` for a file without a seal.
     pub from: String,
     /// Digest of the accepted content, without this history entry.
     pub to: String,

@@ -44,7 +44,7 @@ pub struct Evidence<'a> {
 }
 
 impl Evidence<'_> {
-    /// True if this program recorded the samples: there is no map to change.
+    /// True if this program recorded the samples, so that there is no import map.
     pub(crate) fn is_recording(&self) -> bool {
         self.header.sources.is_none() && self.header.mapping().is_empty()
     }
@@ -113,7 +113,7 @@ pub struct FrameFacts {
 }
 
 impl FrameFacts {
-    /// Statistics of `frame`, compared with the frame without contact.
+    /// Statistics of `frame`, compared with `reference`, the frame without contact.
     pub fn of(frame: &Frame, reference: Option<&Frame>) -> FrameFacts {
         FrameFacts {
             tiles: Tiles::of(frame),
@@ -121,7 +121,7 @@ impl FrameFacts {
         }
     }
 
-    /// Statistics of `frame` without tiles, which would take most of the time. Compares with the frame without contact.
+    /// Statistics of `frame` like [`of`](FrameFacts::of), but without tiles, whose computation takes most of the time.
     pub fn without_tiles(frame: &Frame, reference: Option<&Frame>) -> FrameFacts {
         let format = frame.info().format;
         match format.bytes_per_sample() {

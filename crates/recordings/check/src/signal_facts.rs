@@ -173,7 +173,7 @@ fn next_in_series(series: u64, value: f32) -> u64 {
     fnv_1a_after(series, &value.to_bits().to_le_bytes())
 }
 
-/// Counts `value` if it is the extreme or the second most extreme value. `beyond` returns true if its first argument is more extreme.
+/// Counts `value` in `end`, the most extreme value, or in `next`, the second most extreme. `beyond` is true if its first argument is more extreme.
 fn extend(
     value: f32,
     end: &mut ValueCount,

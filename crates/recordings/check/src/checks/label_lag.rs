@@ -98,7 +98,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found.into_iter().collect()
 }
 
-/// Map entry that removes a lag of `seconds` of the channel `name`. `None` unless the channel is joined by time with a single lag.
+/// Import-map entry that removes a lag of `seconds` of the channel `name`. `None` unless the channel is joined by time with a single lag.
 fn line(evidence: &Evidence<'_>, name: &str, seconds: f64) -> Option<String> {
     let mut columns = evidence.header.columns.iter();
     let column = columns.find(|column| column.label == name)?;

@@ -14,7 +14,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Remedy for a recording of this program, which has no map.
+/// Remedy for a recording made by this program, which has no import map.
 const OF_RECORDING: &str = "look at these samples: a transducer that was overloaded or read during motion gives such labels; state why they are \
     right, or write the recording with `taceva export`, and import it without them by [drop] of its map.toml";
 
@@ -61,10 +61,10 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// Maximum number of pictures or rows in a map entry.
+/// Maximum number of pictures or rows in an import-map entry.
 const LISTED: usize = 20;
 
-/// Map entry that leaves out `rows`; empty if the rows were not imported.
+/// Import-map entry that leaves out `rows`; empty if the rows were not imported.
 fn drop_line(evidence: &Evidence<'_>, rows: &[usize]) -> String {
     let line = match pictures_of(evidence, rows) {
         Some(names) => Some(("frames_named", names)),
@@ -84,7 +84,7 @@ fn drop_line(evidence: &Evidence<'_>, rows: &[usize]) -> String {
     )
 }
 
-/// Pictures of `rows`, as a map names them; `None` if the pictures are not single files, or if a row has several pictures.
+/// Pictures of `rows`, as an import map names them; `None` if the pictures are not single files, or if a row has several pictures.
 fn pictures_of(evidence: &Evidence<'_>, rows: &[usize]) -> Option<Vec<String>> {
     let header = evidence.header;
     let pictures = header.mapping().pictures;
@@ -101,7 +101,7 @@ fn pictures_of(evidence: &Evidence<'_>, rows: &[usize]) -> Option<Vec<String>> {
         .collect()
 }
 
-/// Numbers of `rows` in their tables, as a map names them, with the table if there are several. `None` if a row has no such number.
+/// Numbers of `rows` in their tables, as an import map names them, with the table if there are several. `None` if a row has no such number.
 fn numbers_of(evidence: &Evidence<'_>, rows: &[usize]) -> Option<Vec<String>> {
     let (tables, numbers) = (evidence.table.source_table(), evidence.table.source_row());
     let are_several = tables.windows(2).any(|pair| pair[0] != pair[1]);

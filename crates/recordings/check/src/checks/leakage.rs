@@ -1,4 +1,4 @@
-//! TAC007: test samples that are nearly equal to training samples, or of the same cluster of a task.
+//! TAC007: test samples that are nearly equal to training samples, or share a cluster of a task with them.
 
 use std::collections::BTreeSet;
 

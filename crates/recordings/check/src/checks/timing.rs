@@ -18,7 +18,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Remedy for a recording of this program, whose devices and drivers stamped the frames.
+/// Remedy for a recording made by this program, whose devices and drivers stamped the frames.
 const OF_RECORDING: &str = "the device or its driver stamped these frames: check it with `taceva rig check`, end other programs on this machine, \
     and record again";
 
@@ -143,7 +143,7 @@ fn starts_anew(table: &Table, pairs: &[(usize, usize)]) -> bool {
     changes > 0 && pairs.len() >= 2 * changes
 }
 
-/// Sample rate from the usual step, which is the median of the forward steps. Pauses between presses therefore do not affect the rate.
+/// Finding about the sample rate, computed from the median of the forward steps. Pauses between presses therefore do not affect the rate.
 fn rate(steps: &[(usize, f64)], missing: Option<&Missing>) -> Found {
     let mut forward: Vec<f64> = steps.iter().map(|(_, seconds)| *seconds).collect();
     forward.retain(|seconds| *seconds > 0.0);

@@ -96,7 +96,7 @@ fn of_channel(
     Some(evidence.found(Severity::Warning, message, &shifted))
 }
 
-/// First time stamp of the recording, s.
+/// Earliest time stamp of the recording, s.
 fn first_time(evidence: &Evidence<'_>) -> f64 {
     let times = evidence.table.t_s().iter().flatten();
     times.copied().fold(f64::INFINITY, f64::min)
@@ -146,7 +146,7 @@ impl Step {
     }
 }
 
-/// Straight line fitted to the values.
+/// Straight line fitted to values over time by least squares.
 #[derive(Clone, Copy, Debug)]
 struct Drift {
     /// Change of the line from the first time to the last.

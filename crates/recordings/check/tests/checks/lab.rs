@@ -42,7 +42,7 @@ pub(super) fn pictures(presses: &[f64]) -> Vec<u8> {
     bytes
 }
 
-/// Imports a folder with `files` by this map, and runs the checks with the codes `only`.
+/// Imports a folder with `files` by `map`, and runs the checks with the codes `only`.
 pub(super) fn imported(files: &[(&str, Vec<u8>)], map: &str, only: &[&str]) -> CheckReport {
     imported_and_split(files, map, only, None)
 }

@@ -1,11 +1,11 @@
-//! Tests of remedies: a recording of this program has no map to change.
+//! Tests of remedies for recordings made by this program, which have no import map.
 
 use taceva_check::{CheckReport, Finding};
 
 use super::lab::{SENSOR, imported};
 use super::{Recording, readings};
 
-/// The finding with this code.
+/// Finding of the check `code` in `report`.
 #[track_caller]
 fn finding<'r>(report: &'r CheckReport, code: &str) -> &'r Finding {
     let found = report.findings.iter().find(|own| own.code == code);

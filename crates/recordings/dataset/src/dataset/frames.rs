@@ -147,7 +147,7 @@ impl Dataset {
         })
     }
 
-    /// First frame of a pack, decoded once per pack.
+    /// First frame of the pack of `entry`, decoded once per pack.
     fn first_of_pack(
         &self,
         entry: &FrameEntry,

@@ -1,4 +1,4 @@
-//! Conflicts between two maps, by key.
+//! Conflicts between two import maps, by key.
 
 /// Key of an import map, and its value.
 pub(super) type Fact = (String, String);

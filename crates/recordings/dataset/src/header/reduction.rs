@@ -19,7 +19,7 @@ pub struct ReducedFrames {
     /// Size and format of a camera frame before reduction.
     #[serde(flatten)]
     pub from: FrameInfo,
-    /// Description of the method.
+    /// Description of the reduction method.
     pub by: String,
 }
 

@@ -8,7 +8,7 @@ const QUICK: u32 = 9;
 /// A Huffman table for decoding.
 #[derive(Clone, Debug)]
 pub(super) struct Huffman {
-    /// By the next [`QUICK`] bits: the length of the code and its symbol; length 0 if the code is longer or invalid.
+    /// For each value of the next [`QUICK`] bits, the length of the code and its symbol. The length is 0 if the code is longer or invalid.
     quick: Vec<(u8, u8)>,
     /// For each code length, the number after the last code of this length, left-aligned in 16 bits.
     beyond: [u32; 17],

@@ -286,7 +286,7 @@ struct Coder<'a> {
 /// State passed from block to block between restart markers.
 #[derive(Default)]
 struct State {
-    /// By component of the frame: the last DC coefficient.
+    /// Last DC coefficient of each component of the frame.
     previous: [i64; 4],
     /// Number of following blocks that the last code declared empty.
     empty_blocks: u32,
