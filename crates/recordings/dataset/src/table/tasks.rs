@@ -151,7 +151,7 @@ fn push_each(parts: &mut [Vec<Option<f64>>], numbers: &[f64]) {
     }
 }
 
-/// Column with these cells.
+/// Column of the given cells.
 fn column(cells: impl Iterator<Item = Option<f64>>) -> Column {
     let mut column = Column::default();
     cells.for_each(|cell| column.push(cell));
