@@ -59,7 +59,8 @@ impl Staged {
         Ok(staged)
     }
 
-    /// Creates a staging folder like [`beside`](Staged::beside), for one process at a time. Returns `None` while another process stages the same target.
+    /// Creates a staging folder like [`beside`](Staged::beside), with an empty folder at [`path`](Staged::path). Returns `None` while another process
+    /// stages the same target.
     ///
     /// # Errors
     /// Errors of [`beside`](Staged::beside).

@@ -66,7 +66,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// Last time stamp of each clock, s.
+/// Latest time stamp of each clock, s.
 fn last_stamps(table: &Table) -> Vec<f64> {
     let mut last: BTreeMap<(Option<&str>, Option<&str>), f64> = BTreeMap::new();
     for (row, time) in table.t_s().iter().enumerate() {
@@ -162,7 +162,7 @@ fn set_back(evidence: &Evidence<'_>) -> Option<Found> {
     Some(evidence.found(Severity::Warning, message, &rows))
 }
 
-/// Finds a declared clock that contradicts the last time stamps.
+/// Finds a declared clock that contradicts the latest time stamps.
 fn contradicted(evidence: &Evidence<'_>, last: &[f64]) -> Option<Found> {
     let least = last.iter().copied().reduce(f64::min)?;
     let most = last.iter().copied().reduce(f64::max)?;
