@@ -21,7 +21,7 @@ pub struct SignalFacts {
     pub taxels: Vec<TaxelFacts>,
     /// Number of samples read.
     pub samples: u64,
-    /// Rows with only zeros; empty if there are no other rows.
+    /// Rows whose values are all zero; empty if this holds for every row.
     pub zero_rows: Vec<usize>,
     /// Rows declared as without contact.
     pub rest_rows: Vec<usize>,

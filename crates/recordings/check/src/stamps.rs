@@ -73,7 +73,7 @@ impl Stream {
         runs
     }
 
-    /// Stream of one run whose steps have these lengths, s.
+    /// Stream of one run whose steps have the lengths `seconds`, s.
     #[cfg(test)]
     pub(super) fn of_seconds(seconds: &[f64]) -> Stream {
         let steps = seconds.iter().zip(0..);

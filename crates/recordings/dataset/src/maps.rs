@@ -108,7 +108,7 @@ impl MapParts<'_> {
     }
 }
 
-/// Parts of the map with these bytes.
+/// Parts of the map stored as `bytes`.
 #[doc(hidden)]
 pub fn parts_of_map(bytes: &[u8]) -> Result<MapParts<'_>, String> {
     let cut = || "the depth map is cut short".to_owned();

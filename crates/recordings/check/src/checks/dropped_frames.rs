@@ -167,7 +167,7 @@ fn is_cut(stream: &Stream, period: f64) -> bool {
 mod tests {
     use super::*;
 
-    /// Number of missing frames in a stream whose steps are these multiples of 1/30 s.
+    /// Number of missing frames in a stream whose steps are `periods` times 1/30 s.
     fn missing_of(periods: &[f64]) -> f64 {
         let seconds: Vec<f64> = periods.iter().map(|periods| periods / 30.0).collect();
         Missing::of(&Stream::of_seconds(&seconds)).map_or(0.0, |missing| missing.frames)

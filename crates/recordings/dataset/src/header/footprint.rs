@@ -53,7 +53,7 @@ pub enum Shape {
 }
 
 impl Footprint {
-    /// Disc with this radius, mm.
+    /// Disc with the radius `radius_mm`, mm.
     pub fn disc(radius_mm: f64) -> Footprint {
         Footprint {
             shape: Shape::Disc,
@@ -64,7 +64,7 @@ impl Footprint {
         }
     }
 
-    /// Rectangle with these half widths along x and y, mm.
+    /// Rectangle with the half widths `half_x_mm` along x and `half_y_mm` along y, mm.
     pub fn rectangle(half_x_mm: f64, half_y_mm: f64) -> Footprint {
         Footprint {
             shape: Shape::Rect,

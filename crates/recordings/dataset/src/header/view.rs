@@ -23,7 +23,7 @@ pub struct ViewInfo {
 }
 
 impl ViewInfo {
-    /// View `name` with these frames.
+    /// View called `name`, with its frames.
     pub fn new(name: impl Into<String>, frames: FramesInfo) -> ViewInfo {
         ViewInfo {
             name: name.into(),
