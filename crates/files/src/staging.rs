@@ -12,7 +12,7 @@ use crate::temporary_folder::{FORMER, TemporaryFolder, clear, folders, is_living
 
 /// Name prefix of every staging folder.
 pub const STAGED: &str = ".taceva-staged-";
-/// Maximum number of waits for another process that has moved the old version away and has not yet moved the new version into place.
+/// Maximum number of waits for another process, which has moved the old version away but not yet moved the new version in.
 const WAITS: u32 = 2_000;
 const PAUSE: Duration = Duration::from_millis(1);
 /// Resolution of modification times, with a margin. Changes that are further apart than this resolution have different times.
@@ -59,7 +59,8 @@ impl Staged {
         Ok(staged)
     }
 
-    /// Creates a staging folder like [`beside`](Staged::beside), for one process at a time. Returns `None` while another process stages the same target.
+    /// Creates a staging folder like [`beside`](Staged::beside), with an empty folder at [`path`](Staged::path). Returns `None` while another process
+    /// stages the same target.
     ///
     /// # Errors
     /// Errors of [`beside`](Staged::beside).
@@ -263,7 +264,7 @@ fn clear_changed(parent: &Path) {
     }
 }
 
-/// Path to which a process moved the old version of `target`, before it moves the new version into place.
+/// Temporary path of the old version of `target`, while another process replaces `target`.
 fn former_of(target: &Path) -> Option<PathBuf> {
     let mut name = std::ffi::OsString::from(FORMER);
     name.push(target.file_name()?);

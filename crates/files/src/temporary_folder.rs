@@ -60,7 +60,7 @@ pub struct TemporaryFolder {
 impl TemporaryFolder {
     /// Creates a folder in `parent` whose name begins with `prefix`. Removes folders of killed processes with the same prefix and owner.
     ///
-    /// Existing links, folders of other owners, and folders without a marker are not removed.
+    /// Links, folders of other owners, and folders with content but without a marker are not removed.
     ///
     /// # Errors
     /// [`io::Error`] of the file system.
@@ -142,7 +142,7 @@ pub(crate) fn clear(parent: &Path, prefix: &str) {
     }
 }
 
-/// Folders in `parent` that belong to this user and whose name begins with `prefix`; links are ignored.
+/// Folders in `parent` that belong to this user, with a name of `prefix` and [`RANDOM`] letters or digits; links are ignored.
 pub(crate) fn folders(parent: &Path, prefix: &str) -> impl Iterator<Item = PathBuf> {
     let entries = fs::read_dir(parent).into_iter().flatten().flatten();
     entries.filter_map(move |entry| {

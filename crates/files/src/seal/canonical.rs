@@ -6,14 +6,14 @@ use std::fmt;
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use sha2::{Digest as _, Sha256};
 
-/// JSON value without key order, spaces and number format. Duplicate keys are rejected.
+/// JSON value whose digest ignores key order, spaces and number format. Parsing rejects duplicate keys.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Canonical {
     Null,
     Bool(bool),
     /// Whole number; `2.0` and `2` are equal.
     Whole(i128),
-    /// Bits of any other number.
+    /// Number that is not whole, as the bits of its `f64`.
     Real(u64),
     Text(String),
     List(Vec<Canonical>),

@@ -1,10 +1,10 @@
-//! Digests as text.
+//! Text form of SHA-256 digests.
 
 use sha2::{Digest as _, Sha256};
 
 pub(crate) const PREFIX: &str = "sha256:";
 
-/// Writes `digest` in the format used in files.
+/// Formats `digest` as `sha256:` and lower-case hexadecimal digits.
 pub(crate) fn text_of(digest: &[u8]) -> String {
     format!("{PREFIX}{}", hexadecimal(digest))
 }

@@ -2,13 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Accepted edit.
+/// Edit of a sealed file that a person accepted.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Edit {
     /// Date of the edit: `2026-11-22`.
     pub date: String,
-    /// Digest before the edit, or `unsealed`.
+    /// Digest of the content before the edit, or `unsealed` for a file without a seal.
     pub from: String,
     /// Digest of the accepted content, without this history entry.
     pub to: String,

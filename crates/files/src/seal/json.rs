@@ -1,4 +1,4 @@
-//! JSON with a seal over all other values as its last key.
+//! JSON text whose last key is a seal over all other values.
 
 use sha2::{Digest as _, Sha256};
 
@@ -42,7 +42,7 @@ pub fn check(text: &str) -> Result<Opened, SealError> {
     check_with(text, &[])
 }
 
-/// Checks `text` like [`check`], for a file sealed with the same bytes outside the text.
+/// Checks `text` like [`check`], for a file that [`seal_with`] sealed with the bytes `attached`.
 ///
 /// # Errors
 /// Errors of [`check`].
@@ -90,7 +90,7 @@ pub fn reseal(text: &str, date: &str, reason: &str) -> Result<String, SealError>
     Ok(format!("{}\n", seal(&edited)?.trim_end()))
 }
 
-/// Parsed text: value, seal and digests of the values by key.
+/// JSON text after parsing: all values except the seal, the digests computed from them, and the stored seal.
 struct Parsed {
     rest: Canonical,
     digest: String,

@@ -1,11 +1,11 @@
-//! Shortened digests of all values, stored with the seal to name a changed key.
+//! Shortened digests of all values. The seal stores them, so that an error can name the changed key.
 
 use std::collections::BTreeMap;
 
 use crate::seal::canonical::Canonical;
 use crate::seal::digest::hexadecimal;
 
-/// Maximum depth of nested keys.
+/// Maximum depth of the nested keys that get a separate digest.
 const LEVELS: usize = 3;
 /// Maximum number of keys. A file with more keys stores no digests of values.
 const MOST: usize = 4_096;
@@ -13,7 +13,7 @@ const MOST: usize = 4_096;
 /// Shortened digest of each value, by its key: `metrics.mae.Fz`, `studies[1].provenance.seed`.
 pub(crate) type Keys = BTreeMap<String, String>;
 
-/// Digests of the values in `value`, by key; empty if there are more keys than the maximum.
+/// Digests of the values in `value`, by key; empty if there are more than [`MOST`] keys.
 pub(crate) fn of(value: &Canonical) -> Keys {
     let mut keys = Keys::new();
     add(value, "", LEVELS, &mut keys);

@@ -7,8 +7,8 @@ use crate::evidence::{Evidence, FrameFacts};
 use crate::finding::Check;
 use crate::signal_facts::SignalFacts;
 
-/// Codes of the checks that find something in changed pictures of `dataset`, ascending. `frames` has the statistics of each row, and may lack tiles.
-/// `has_repeats` is true if a picture equals an earlier one.
+/// Codes of the checks that find something in changed pictures of `dataset`, ascending. `frames` has the statistics of the picture of each row, with
+/// or without tiles. `has_repeats` is true if two pictures are equal.
 ///
 /// Runs the checks that need pictures and labels alone: duplicates, order of colours, saturation, a pressed reference, blank pictures, and a dead zone.
 pub fn codes_of_pictures(
@@ -38,7 +38,7 @@ pub fn codes_of_signals(dataset: &Dataset, facts: &SignalFacts) -> Vec<&'static 
     codes(&OF_SIGNALS, &evidence).collect()
 }
 
-/// Evidence of the labels alone.
+/// Evidence that consists of the header and the table of `dataset`, without pictures and signals.
 fn of_labels(dataset: &Dataset) -> Evidence<'_> {
     Evidence {
         header: dataset.header(),

@@ -48,7 +48,7 @@ mod zero_shift;
 
 use crate::finding::Check;
 
-/// Checks that need the statistics of pictures without tiles, and labels.
+/// Checks that read only labels and statistics of whole pictures, not of tiles.
 pub(crate) static OF_PICTURES: [&Check; 5] = [
     &channel_order::CHECK,
     &saturation::CHECK,

@@ -44,7 +44,7 @@ pub struct Evidence<'a> {
 }
 
 impl Evidence<'_> {
-    /// True if this program recorded the samples: there is no map to change.
+    /// True if this program recorded the samples, so that there is no import map.
     pub(crate) fn is_recording(&self) -> bool {
         self.header.sources.is_none() && self.header.mapping().is_empty()
     }
@@ -57,7 +57,8 @@ impl Evidence<'_> {
             .find_map(|name| channels.position(name))
     }
 
-    /// For each row, false if its depth label shows contact. If all depths are positive, they may be positions, and all rows are true.
+    /// For each row, false if its depth label shows contact. If every row has a depth and seems to be in contact, the depths may be positions, and
+    /// all rows are true.
     pub(crate) fn without_depth(&self) -> Vec<bool> {
         let rows = self.table.rows();
         let Some(depth) = self.table.channels().position("Pz") else {
@@ -97,22 +98,22 @@ impl Evidence<'_> {
 /// Values are fractions of the full scale of the pixel format, 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameFacts {
-    /// Means of red, green and blue; for gray, three equal values.
+    /// Means of red, green and blue over all pixels; for gray, three equal values.
     pub mean: [f64; 3],
-    /// Fraction of values at full scale.
+    /// Fraction of the pixel values that are at full scale.
     pub full: f64,
-    /// Fraction of values at zero.
+    /// Fraction of the pixel values that are zero.
     pub zero: f64,
     /// True if all pixels are equal.
     pub is_flat: bool,
-    /// Mean absolute difference from the frame without contact; `None` without a frame of the same size.
+    /// Mean absolute difference from the frame without contact, over all pixels and colours; `None` without a frame of the same size.
     pub distance: Option<f64>,
     /// Mean brightness of square tiles, each an eighth of the width wide.
     pub tiles: Tiles,
 }
 
 impl FrameFacts {
-    /// Statistics of `frame`, compared with the frame without contact.
+    /// Statistics of `frame`, compared with `reference`, the frame without contact.
     pub fn of(frame: &Frame, reference: Option<&Frame>) -> FrameFacts {
         FrameFacts {
             tiles: Tiles::of(frame),
@@ -120,7 +121,7 @@ impl FrameFacts {
         }
     }
 
-    /// Statistics of `frame` without tiles, which would take most of the time. Compares with the frame without contact.
+    /// Statistics of `frame` like [`of`](FrameFacts::of), but without tiles, whose computation takes most of the time.
     pub fn without_tiles(frame: &Frame, reference: Option<&Frame>) -> FrameFacts {
         let format = frame.info().format;
         match format.bytes_per_sample() {

@@ -11,13 +11,13 @@ const THIRD: f64 = 1.0 / 3.0;
 /// Values are fractions of the full scale of the pixel format.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RestChange {
-    /// Mean change over all tiles.
+    /// Mean change of the untouched picture, over all tiles.
     pub mean: f64,
-    /// Maximum change of a single tile.
+    /// Maximum change of a tile of the untouched picture.
     pub greatest: f64,
-    /// Median of the mean changes by contact.
+    /// Mean change by contact, over all tiles; the median over the pictures with contact.
     pub contact_mean: f64,
-    /// Median of the maximum changes of a tile by contact.
+    /// Maximum change of a tile by contact; the median over the pictures with contact.
     pub contact_greatest: f64,
 }
 
@@ -36,23 +36,23 @@ impl RestChange {
         (is_known && has_contact).then_some(found)
     }
 
-    /// True if the mean change exceeds a third of the mean change by contact.
+    /// True if the mean change exceeds a third of `contact_mean`.
     pub fn is_overall(&self) -> bool {
         self.mean > THIRD * self.contact_mean
     }
 
-    /// True if the maximum change of a tile exceeds the maximum change by contact.
+    /// True if the maximum change of a tile exceeds `contact_greatest`.
     pub fn is_local(&self) -> bool {
         self.greatest > self.contact_greatest
     }
 }
 
-/// Median; of two middle numbers, the lower. 0 for no numbers.
+/// Median of `numbers`, or the lower of two middle numbers; 0 without numbers.
 pub(crate) fn lower_median(numbers: impl Iterator<Item = f64>) -> f64 {
     in_order(numbers, |count| count.saturating_sub(1) / 2)
 }
 
-/// Median; of two middle numbers, the upper. 0 for no numbers.
+/// Median of `numbers`, or the upper of two middle numbers; 0 without numbers.
 fn median(numbers: impl Iterator<Item = f64>) -> f64 {
     in_order(numbers, |count| count / 2)
 }

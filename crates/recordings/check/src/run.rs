@@ -176,7 +176,7 @@ pub(crate) fn check_seen(
     })
 }
 
-/// Division that scores each task of classes. A task with a single cluster has no division and cannot be evaluated.
+/// Division used to score each task with classes. A task with a single cluster has no division and cannot be evaluated.
 fn of_tasks(
     dataset: &Dataset,
     request: &CheckRequest,
@@ -194,7 +194,7 @@ fn of_tasks(
     divided.collect()
 }
 
-/// True if any of `wanted` reads `field` for every sample, and `dataset` has this field.
+/// True if `dataset` has `field`, and any of `wanted` reads this field of every sample.
 fn reads(dataset: &Dataset, wanted: &[&Check], field: Field) -> bool {
     let of_all = |check: &&&Check| check.code == blank::CHECK.code;
     let mut checks = wanted.iter();

@@ -21,13 +21,13 @@ pub struct SignalFacts {
     pub taxels: Vec<TaxelFacts>,
     /// Number of samples read.
     pub samples: u64,
-    /// Rows with only zeros; empty if there are no other rows.
+    /// Rows whose values are all zero; empty if this holds for every row.
     pub zero_rows: Vec<usize>,
     /// Rows declared as without contact.
     pub rest_rows: Vec<usize>,
     /// Mean over the rows without contact; `None` if no row is declared so.
     pub rest: Option<Signals>,
-    /// Mean absolute difference of each row from `rest`, in the unit of the signals; empty without `rest`.
+    /// Difference of each row from `rest`, as a mean of absolute values over the taxels, in the unit of the signals; empty without `rest`.
     pub distance: Vec<f64>,
 }
 
@@ -173,7 +173,7 @@ fn next_in_series(series: u64, value: f32) -> u64 {
     fnv_1a_after(series, &value.to_bits().to_le_bytes())
 }
 
-/// Counts `value` if it is the extreme or the second most extreme value. `beyond` returns true if its first argument is more extreme.
+/// Counts `value` in `end`, the most extreme value, or in `next`, the second most extreme. `beyond` is true if its first argument is more extreme.
 fn extend(
     value: f32,
     end: &mut ValueCount,

@@ -13,7 +13,7 @@ const LEAST: usize = 10;
 /// Step from one row to the next row of the same contact, sensor and table.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step {
-    /// Row before the step. If a table has several units, this is not always the previous row.
+    /// Row before the step. In a table of several sensor units, this is not always the previous row.
     pub(super) from: usize,
     /// Row after the step.
     pub(super) to: usize,
@@ -73,7 +73,7 @@ impl Stream {
         runs
     }
 
-    /// Stream of one run whose steps have these lengths, s.
+    /// Stream of one run whose steps have the lengths `seconds`, s.
     #[cfg(test)]
     pub(super) fn of_seconds(seconds: &[f64]) -> Stream {
         let steps = seconds.iter().zip(0..);
@@ -103,7 +103,7 @@ pub(super) fn by_clock(table: &Table, rows: impl Iterator<Item = usize>) -> Vec<
     .collect()
 }
 
-/// Pairs of consecutive rows of one unit among `rows`, ordered by time across tables.
+/// Pairs of consecutive rows of one sensor unit among `rows`, ordered by time across tables.
 pub(super) fn by_time(table: &Table, rows: &[usize]) -> Vec<(usize, usize)> {
     let (units, times) = (table.unit_id(), table.t_s());
     let seconds = |row: usize| times[row].unwrap_or(f64::NEG_INFINITY);
@@ -120,8 +120,8 @@ pub(super) fn share(part: usize, whole: usize) -> f64 {
     part as f64 / whole.max(1) as f64
 }
 
-/// Rows with the same time as the previous row of their clock; `None` unless more than one in ten rows repeat a time. The clock then counts whole
-/// seconds, or has stopped.
+/// Rows with the same time as the previous row of their clock, from a clock that counts whole seconds or has stopped. `None` unless more than one in
+/// ten rows repeat a time.
 pub(super) fn repeated(table: &Table) -> Option<Vec<usize>> {
     const SHARE: usize = 10;
     let times = table.t_s();

@@ -26,9 +26,9 @@ use crate::error::DatasetError;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FrameArray {
-    /// Pixels of a format with 8 bits per number.
+    /// Pixels with 8 bits per value.
     U8(Array3<u8>),
-    /// Pixels of a format with 16 bits per number.
+    /// Pixels with 16 bits per value.
     U16(Array3<u16>),
 }
 
@@ -53,9 +53,9 @@ pub enum FrameArray {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FrameArrays {
-    /// Pixels of a format with 8 bits per number.
+    /// Pixels with 8 bits per value.
     U8(Array4<u8>),
-    /// Pixels of a format with 16 bits per number.
+    /// Pixels with 16 bits per value.
     U16(Array4<u16>),
 }
 
@@ -72,7 +72,7 @@ impl From<Frame> for FrameArray {
 }
 
 impl FrameArrays {
-    /// Copies `frames` of `info` into one array; `None` if a frame has another size or format.
+    /// Copies `frames` of the format `info` into one array; `None` if a frame has another size or format.
     ///
     /// ```
     /// use taceva_core::{FrameInfo, PixelFormat};

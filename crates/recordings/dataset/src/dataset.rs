@@ -60,7 +60,7 @@ pub struct Dataset {
     folder: HeldFolder,
     header: Header,
     table: Table,
-    /// Decoded first frame of each pack that was read.
+    /// Decoded first frame of each pack file that was read, by the path of the pack.
     firsts: Mutex<BTreeMap<String, Arc<Frame>>>,
     /// Reader of the signals file; `None` before the first request.
     signals: Mutex<Option<Arc<SignalsReader>>>,

@@ -37,7 +37,7 @@ pub enum ChannelOrder {
 }
 
 impl ChannelOrder {
-    /// Name of the order in files.
+    /// Name of this order, as written in files.
     pub const fn name(self) -> &'static str {
         match self {
             ChannelOrder::Rgb => "rgb",
@@ -129,7 +129,7 @@ pub fn check_to_the_end(bytes: &[u8], kind: ImageKind) -> Result<(), String> {
     }
 }
 
-/// Format of a complete image file.
+/// Format of an image file. Returns an error message for an unknown format or a missing end marker.
 pub(crate) fn kind_of_whole(bytes: &[u8]) -> Result<ImageKind, String> {
     let kind = ImageKind::of(bytes)
         .ok_or("neither PNG nor JPEG nor TIFF: its first bytes are those of another format")?;
@@ -297,7 +297,8 @@ fn most_of(file: &[u8]) -> usize {
 
 /// Converts `bytes`, the decoded size of the image in `file`, to `usize`.
 ///
-/// # Errors Error message if the decoded size exceeds the limit of [`most_of`].
+/// # Errors
+/// Error message if the decoded size exceeds the limit of [`most_of`].
 fn checked_length(bytes: u64, file: &[u8]) -> Result<usize, String> {
     let length = usize::try_from(bytes).map_err(|_| "the image exceeds the address space")?;
     match length <= most_of(file) {

@@ -65,7 +65,7 @@ impl PartsDigest {
         self.fixed(bytes);
     }
 
-    /// Adds a part of fixed length.
+    /// Adds a part of fixed length, without its length.
     pub fn fixed(&mut self, bytes: &[u8]) {
         self.0.update(bytes);
     }

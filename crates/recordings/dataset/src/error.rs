@@ -40,7 +40,7 @@ pub enum DatasetError {
         /// Error of the operating system.
         source: io::Error,
     },
-    /// Text file with invalid content: a map, a header, or a table of sessions.
+    /// Text file with invalid content: an import map, a header, or a table of sessions.
     #[error("{place}: {problem}")]
     Text {
         /// Location of the fault.
@@ -51,9 +51,9 @@ pub enum DatasetError {
     /// Path that TacEva must not follow.
     #[error("`{}`: {problem}", shown(written))]
     Path {
-        /// Path as written.
+        /// Rejected path, as written.
         written: String,
-        /// Reason why it is rejected.
+        /// Reason why the path is rejected.
         problem: String,
     },
     /// Image or array of images that is damaged, too large, or differs in size or format from the others.
@@ -136,7 +136,7 @@ pub enum DatasetError {
     Sample {
         /// Name of the sample.
         id: String,
-        /// Reason why it is rejected.
+        /// Reason why the sample is rejected.
         problem: String,
     },
     /// Request for something that the dataset lacks.
@@ -154,7 +154,7 @@ pub enum DatasetError {
         path: PathBuf,
         /// Requested view; `None` if none was named.
         asked: Option<String>,
-        /// Existing views.
+        /// Names of the existing views.
         known: Vec<String>,
     },
     /// Two recordings that cannot be joined.

@@ -65,7 +65,7 @@ impl HeldFolder {
         unreachable!("the last attempt returns")
     }
 
-    /// Copy with the same path but without a handle, for joined recordings, whose files are read through the handles of the parts.
+    /// Copy with the same path but without a handle, for joined recordings, whose files are read through the handle of each recording.
     pub(crate) fn without_files(&self) -> HeldFolder {
         HeldFolder {
             path: self.path.clone(),

@@ -4,7 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// File-name suffixes after the name of the recording.
+/// Suffix of the file with the count of retried frames, after the name of the recording; `FROZEN` for frozen frames.
 const RETRIED: &str = ".retried";
 const FROZEN: &str = ".frozen";
 

@@ -21,7 +21,7 @@ use crate::limits;
 const HEADER: usize = 4 + 1 + 8 + 8;
 const CHAIN: usize = 32;
 
-/// Content of a journal record.
+/// Kind of a journal record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub(crate) enum RecordKind {

@@ -1,4 +1,5 @@
-//! Facts of an unfinished recording that its journal lacks: the day of the last session, warnings of devices, and settings that were measured meanwhile.
+//! Facts of an unfinished recording that its journal lacks: the day of the last session, warnings of devices, and settings that were measured during
+//! the recording.
 //!
 //! These facts become known only after the journal was begun. A file beside the recording stores them until the recording is closed.
 
@@ -13,7 +14,7 @@ use taceva_core::Date;
 use crate::header::RecordingFacts;
 use crate::toml_file::read_toml;
 
-/// Later facts of one recording.
+/// Facts of an unfinished recording that its journal lacks.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct LaterFacts {

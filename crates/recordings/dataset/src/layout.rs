@@ -73,7 +73,7 @@ pub fn reference_path_anew(before: usize, extension: &str) -> String {
     }
 }
 
-/// Folders of the frames with these numbers, relative to the dataset.
+/// Folders that contain the frames with `numbers`, relative to the dataset.
 pub fn frame_folders(numbers: Range<usize>) -> impl Iterator<Item = String> {
     let end = match numbers.is_empty() {
         true => numbers.start,

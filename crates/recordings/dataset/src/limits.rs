@@ -1,6 +1,6 @@
 //! Limits of input files. A larger file is rejected before memory is allocated for it.
 
-/// Maximum size of a map, header or other TOML file, bytes.
+/// Maximum size of an import map, header or other TOML file, bytes.
 pub const TOML_BYTES: u64 = 1 << 20;
 /// Maximum size of the list of imported source files, bytes.
 pub const SOURCES_BYTES: u64 = 256 << 20;

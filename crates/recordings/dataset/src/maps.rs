@@ -108,7 +108,7 @@ impl MapParts<'_> {
     }
 }
 
-/// Parts of the map with these bytes.
+/// Parts of the map stored as `bytes`.
 #[doc(hidden)]
 pub fn parts_of_map(bytes: &[u8]) -> Result<MapParts<'_>, String> {
     let cut = || "the depth map is cut short".to_owned();
@@ -236,7 +236,7 @@ fn check_pixels([rows, columns]: [usize; 2]) -> Result<(), String> {
     }
 }
 
-/// One bit for each pixel, the lowest first.
+/// One bit for each pixel, the lowest first; set for an invalid pixel.
 fn mask(invalid: impl Iterator<Item = bool>) -> Vec<u8> {
     let mut bytes = Vec::new();
     for (pixel, is_invalid) in invalid.enumerate() {

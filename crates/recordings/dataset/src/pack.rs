@@ -1,8 +1,8 @@
 //! Packs: files with consecutive frames of a recording, each frame at a known offset.
 //!
 //! Each entry of a pack is a complete image file, readable with its offset and length. The picture is the frame, or its difference to the first frame
-//! of the pack if the difference is smaller. Numbers of a difference wrap. Static parts of the pictures are thus stored once. A pack only grows. Bytes
-//! after the last frame in the journal were never acknowledged, and are cut when the recording is resumed.
+//! of the pack if the difference is smaller. Static parts of the pictures are thus stored once. Differences below zero wrap around. A pack only
+//! grows. Bytes after the last frame in the journal were never acknowledged, and are cut when the recording is resumed.
 
 use std::fmt;
 use std::fs::{self, File, OpenOptions};
@@ -15,7 +15,7 @@ use crate::file::{make_names_durable, refuse_link};
 use crate::layout;
 use crate::limits;
 
-/// Byte range of a frame in a pack, written `@OFFSET+LENGTH` after the path of the pack, and then `-first` for a difference.
+/// Byte range of a frame in a pack, written `@OFFSET+LENGTH` after the path of the pack. The suffix `-first` marks a difference to the first frame.
 ///
 /// ```
 /// use taceva_dataset::{Digest, FrameEntry};

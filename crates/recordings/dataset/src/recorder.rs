@@ -275,8 +275,8 @@ impl Recorder {
     /// Records a sample. Returns its number in the journal, from 1, once the sample is durable. Predictions are not recorded.
     ///
     /// # Errors
-    /// [`DatasetError::Sample`] for an empty or used name, a number that is not finite, more values than channels, or signals that do not match the
-    /// taxels. Also if the frame differs in size or format from the first. [`DatasetError::Io`], after which the recording must be resumed.
+    /// [`DatasetError::Sample`] for an empty or used name, a number that is not finite, more values than channels, signals that do not match the
+    /// taxels, or a frame that differs in size or format from the first. [`DatasetError::Io`], after which the recording must be resumed.
     pub fn append(&mut self, sample: &Sample) -> Result<u64, DatasetError> {
         self.check(sample)?;
         let entries = self.write_frames(std::slice::from_ref(sample))?;

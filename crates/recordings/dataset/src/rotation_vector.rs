@@ -1,6 +1,6 @@
 //! Rotations as three numbers that a model can predict.
 
-/// Rotation as the product of its axis and its angle, degrees. The length is at most 180.
+/// Rotation as its unit axis times its angle, degrees. The length is at most 180.
 ///
 /// ```
 /// use taceva_dataset::RotationVector;
@@ -17,7 +17,7 @@ pub struct RotationVector {
 }
 
 impl RotationVector {
-    /// Rotation vector with these parts along x, y and z, in degrees.
+    /// Rotation vector with the components `degrees` along x, y and z.
     pub fn new(degrees: [f64; 3]) -> RotationVector {
         RotationVector { degrees }
     }
@@ -37,7 +37,7 @@ impl RotationVector {
         }
     }
 
-    /// Parts along x, y and z, in degrees.
+    /// Components along x, y and z, degrees.
     pub fn degrees(self) -> [f64; 3] {
         self.degrees
     }

@@ -15,7 +15,7 @@ use read::read;
 use rows::assemble;
 use write::write;
 
-/// Encodes `table` as a file.
+/// Encodes `table` as a Parquet file.
 pub(crate) fn to_parquet(table: &Table) -> Result<Vec<u8>, String> {
     guarded(|| write(table).map_err(|error| error.to_string()))?
 }

@@ -11,7 +11,7 @@ pub(crate) use spec::WrittenSignals;
 pub use spec::{SignalsInfo, SignalsSpec};
 pub use write::SignalsWriter;
 
-/// Number of values in a row group, for any number of taxels; 4 MiB.
+/// Number of values in a row group, for any number of taxels. They take 4 MiB.
 const GROUP_VALUES: usize = 1 << 20;
 
 /// Number of rows in a row group, for samples of `length` values.

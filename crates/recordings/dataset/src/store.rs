@@ -26,7 +26,7 @@ pub struct Beside {
     pub presses: BTreeMap<PressOutcome, u64>,
     /// Frames of each view, if samples have several pictures.
     pub views: Vec<ViewInfo>,
-    /// Columns that the map of an import does not name.
+    /// Columns that no import map names.
     pub unmentioned_columns: Vec<String>,
     /// Mappings of all imports.
     pub mapping: Mapping,

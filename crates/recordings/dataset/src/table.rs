@@ -183,7 +183,7 @@ impl Table {
         &self.depth_step
     }
 
-    /// Number of the repeat of each row.
+    /// Index of the repeated press of each row at its contact point.
     pub fn repeat(&self) -> &[Option<u32>] {
         &self.repeat
     }
@@ -238,7 +238,7 @@ impl Table {
         &self.spacing
     }
 
-    /// Mean luma of the full-size frame of each row, in steps of an 8-bit camera.
+    /// Mean luma of the full-size frame of each row, in 8-bit steps, from 0 to below 256.
     pub fn intensity(&self) -> &[Option<f64>] {
         &self.intensity
     }

@@ -50,7 +50,7 @@ pub enum TaskKind {
 }
 
 impl TaskKind {
-    /// Every kind.
+    /// All kinds of tasks.
     pub const ALL: [TaskKind; 6] = [
         TaskKind::Class,
         TaskKind::Event,
@@ -60,7 +60,7 @@ impl TaskKind {
         TaskKind::Depth,
     ];
 
-    /// Name of the kind in maps and headers.
+    /// Name of the kind in import maps and headers.
     pub const fn name(self) -> &'static str {
         match self {
             TaskKind::Class => "class",
@@ -112,7 +112,7 @@ pub struct Task {
     pub positive: Option<String>,
     /// Id or attribute that is equal in similar samples, such as a trajectory. Intervals and splits treat these samples as one cluster.
     pub cluster: String,
-    /// True if the times of the samples are meaningful for the task.
+    /// True if the import map states that delays of this task are in seconds.
     #[serde(rename = "time", default, skip_serializing_if = "std::ops::Not::not")]
     pub is_timed: bool,
     /// Rule that made the labels, in words; `None` if not stated.
@@ -232,7 +232,7 @@ impl Task {
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TaskLabel {
-    /// Position in the names of the task, from 0.
+    /// Index of the class in the names of the task, from 0.
     Class(u32),
     /// Position x, y, z in mm, and quaternion x, y, z, w.
     Pose([f64; 7]),

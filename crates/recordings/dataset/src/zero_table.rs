@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-/// Zero of the transducer before and after a press: one row of the table, in N in the coordinate frame of the sensor.
+/// Zero of the transducer, which is its reading without contact, before and after a press. Components are in the coordinate frame of the sensor.
 #[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PressZero {
@@ -15,7 +15,7 @@ pub struct PressZero {
     pub press: String,
     /// False if the zero changed too far, so that the press was discarded.
     pub is_kept: bool,
-    /// Time of the second measurement on the clock of the samples, s.
+    /// Time of the zero after the press, on the clock of the samples, s.
     pub t_s: f64,
     /// Zero before the press along x, N.
     #[serde(rename = "before_Fx_N")]

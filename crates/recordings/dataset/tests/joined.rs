@@ -11,12 +11,12 @@ use taceva_dataset::{
     Source,
 };
 
-/// Recording of three samples with frames and signals, in which numbers begin at `first`. The first row is without contact.
+/// Recording of three samples with frames and signals, whose values count up from `first`. The first row is without contact.
 fn record(folder: &Path, name: &str, first: u8, clock: Clock) -> PathBuf {
     record_with(folder, name, (first, 0.0), clock)
 }
 
-/// Recording like that of [`record`], with labels larger by `more`.
+/// Recording like in [`record`], with labels that are larger by `more`.
 fn record_with(folder: &Path, name: &str, (first, more): (u8, f64), clock: Clock) -> PathBuf {
     let path = folder.join(name);
     let facts = RecordingFacts::new(Source::Synthetic, clock, SensorFacts::new("drawn"));

@@ -49,7 +49,7 @@ fn recorded(path: &Path, rows: u16) -> Header {
     recorder.close().expect("closed")
 }
 
-/// Sink that requests these fields and keeps the signals.
+/// Sink that requests the fields of its first part, and keeps the signals in its second part.
 struct Keep(FieldSet, Vec<Option<Signals>>);
 
 impl SampleSink for Keep {

@@ -12,7 +12,7 @@ use taceva_dataset::{
     Source,
 };
 
-/// Transducer with the certificate of this number.
+/// Transducer whose certificate has the number `number`.
 fn traced(number: &str) -> Traceability {
     let day = |text: &str| text.parse().expect("a day");
     let amount = |text: &str| text.parse().expect("an amount");
@@ -44,12 +44,12 @@ fn spec(number: &str) -> RecordingSpec {
     RecordingSpec::new(facts, Channels::new([Channel::FZ]).expect("one"))
 }
 
-/// Day of this number since 1970.
+/// Date `number` days after 1970-01-01.
 fn day(number: u64) -> Date {
     Date::of_unix_s(86_400 * number)
 }
 
-/// Recording that is begun or continued on day `number`.
+/// Specification of a recording that begins or continues on day `number`.
 fn spec_on(number: u64) -> RecordingSpec {
     let mut spec = spec("D-K-1");
     spec.facts.recorded_on = Some(day(number));

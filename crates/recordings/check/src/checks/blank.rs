@@ -1,4 +1,4 @@
-//! TAC025: blank frames and signals, which have the same value everywhere.
+//! TAC025: frames of a single colour, and signals that are all zero.
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};

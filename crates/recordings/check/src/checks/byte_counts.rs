@@ -18,12 +18,12 @@ pub(super) static CHECK: Check = Check {
 const LEAST: usize = 20;
 /// Maximum range of one byte, in counts, with a tolerance for rounding.
 const BYTE: f64 = 255.5;
-/// Number of different counts of one byte.
+/// Number of values that one byte can have.
 const COUNTS: f64 = 256.0;
-/// Minimum jump, in counts.
+/// Change between consecutive samples above which the force jumps, in counts.
 const JUMP: f64 = 200.0;
-/// Number of changes before a jump, and after a jump, whose sums must be opposite to the jump, as for a count that wraps around. A release, or a new
-/// series of steps, is not such a jump.
+/// Number of changes that are summed on each side of a jump. In a count that wraps around, both sums have the opposite sign of the jump. After a
+/// release, they do not.
 const NEAR: usize = 3;
 /// Maximum change of a slowly varying force between consecutive samples, in counts. At most one change in `SHARE` may exceed it.
 const SLOW: f64 = 64.0;

@@ -23,7 +23,8 @@ const LEAST: usize = 3;
 /// Force below which there is no contact, N. `UNTOUCHED_MM` is this limit for the depth, mm.
 const UNTOUCHED_N: f64 = 0.02;
 const UNTOUCHED_MM: f64 = 0.01;
-/// Minimum change since the reference, as a multiple of the median noise. For normal noise this is three standard deviations.
+/// Minimum change of the untouched pictures since the reference, as a multiple of the median noise. For normal noise this is three standard
+/// deviations.
 const NOISES: f64 = 4.5;
 /// Fraction of the greatest load above which a picture shows contact.
 const PRESSED: f64 = 0.5;

@@ -14,7 +14,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum difference of red and blue, as a fraction of full scale, that indicates a swap and not a change of light.
+/// Difference between the mean red and the mean blue of a frame that is too large for a change of light, as a fraction of full scale.
 const CLEAR: f64 = 0.02;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {

@@ -19,7 +19,7 @@ pub(super) static CHECK: Check = Check {
 const LEAST: u64 = 5;
 /// Minimum frequency of the value at the end of the range: one in this many samples.
 const SHARE: u64 = 100;
-/// Minimum ratio of the frequency of the value at the end of the range to the frequency of the next value.
+/// Minimum ratio of the frequency of the value at the end of the range to the frequency of the nearest other value.
 const TIMES: u64 = 3;
 /// Maximum number of taxels named in a message; the others are counted.
 const NAMED: usize = 5;
@@ -31,7 +31,7 @@ const FAR: f32 = 0.25;
 #[derive(Clone, Copy)]
 struct End {
     own: ValueCount,
-    /// Nearest other value.
+    /// Value of this taxel that is nearest to the end.
     next: f32,
     /// True if the value is far from all others, such as a code for "nothing measured".
     is_code: bool,

@@ -18,12 +18,13 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum jump of a clock, in usual steps between samples. A jump must also exceed `JUMP_S`, s.
+/// Minimum jump of a clock, as a multiple of the median step between samples. A jump must also exceed `JUMP_S`, s.
 const JUMP_STEPS: f64 = 100.0;
 const JUMP_S: f64 = 1.0;
-/// Maximum frequency of jumps in recordings without contact points: a single jump, or one in this many steps. More jumps are pauses between presses.
+/// Maximum frequency of jumps in recordings without contact points: a single jump, or one in this many steps. More frequent jumps are pauses between
+/// presses.
 const SELDOM: usize = 100;
-/// Maximum 90th percentile of the steps of a regular stream, as a multiple of the usual step. Recordings without contact points are searched for
+/// Maximum 90th percentile of the steps of a regular stream, as a multiple of the median step. Recordings without contact points are searched for
 /// jumps only if they are regular streams.
 const REGULAR_STEPS: f64 = 3.0;
 /// Difference between consecutive time stamps that indicates two clocks, s: twelve days. A Unix clock and an uptime clock are 54 years apart.
@@ -65,7 +66,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// Last time stamp of each clock, s.
+/// Latest time stamp of each clock, s.
 fn last_stamps(table: &Table) -> Vec<f64> {
     let mut last: BTreeMap<(Option<&str>, Option<&str>), f64> = BTreeMap::new();
     for (row, time) in table.t_s().iter().enumerate() {
@@ -161,7 +162,7 @@ fn set_back(evidence: &Evidence<'_>) -> Option<Found> {
     Some(evidence.found(Severity::Warning, message, &rows))
 }
 
-/// Finds a declared clock that contradicts the last time stamps.
+/// Finds a declared clock that contradicts the latest time stamps.
 fn contradicted(evidence: &Evidence<'_>, last: &[f64]) -> Option<Found> {
     let least = last.iter().copied().reduce(f64::min)?;
     let most = last.iter().copied().reduce(f64::max)?;

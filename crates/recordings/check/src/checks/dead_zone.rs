@@ -16,13 +16,13 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum number of zero forces under load, which must also be at least one in `SHARE` samples.
+/// Minimum number of samples with zero force and a picture that shows contact. They must also be at least one in `SHARE` of all samples.
 const LEAST: usize = 10;
 const SHARE: usize = 20;
 /// Minimum correlation of nonzero forces with picture changes, which shows that the pictures depend on the load.
 const CLEAR: f64 = 0.7;
-/// Picture change above which a picture shows contact, on a scale from 0 (change at rest) to 1 (median change with force). The change at rest is the
-/// quantile 1 / `AT_REST` of the pictures with zero force.
+/// Picture change that shows contact, on a scale from 0 (change at rest) to 1 (median change with force). The change at rest is the quantile 1 /
+/// `AT_REST` of the changes with zero force.
 const PRESSED: f64 = 0.25;
 const AT_REST: usize = 10;
 

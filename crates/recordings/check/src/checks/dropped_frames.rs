@@ -15,14 +15,14 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Lengths of steps that count as gaps, in frame periods. Longer steps are pauses.
+/// Time steps between frames that count as gaps, in frame periods. Longer steps are pauses.
 const GAP: std::ops::Range<f64> = 1.5..10.5;
-/// Maximum relative deviation of a step from the usual step in a regular stream. `REGULAR` is the minimum fraction of steps within this deviation.
+/// Maximum relative deviation of a step from the median step in a regular stream. `REGULAR` is the minimum fraction of steps within this deviation.
 const NEAR: f64 = 0.25;
 const REGULAR: f64 = 0.75;
 /// In streams with many missing frames, the period is searched near the quantile 1 / `SHORT` of the steps.
 const SHORT: usize = 10;
-/// Minimum fraction of steps that are one period long.
+/// Minimum fraction of steps that are one period long, in a stream with many missing frames.
 const SINGLE: f64 = 0.3;
 /// Maximum deviation of a step from a multiple of the period, in periods. `MULTIPLES` is the minimum fraction of steps within this deviation.
 const WHOLE: f64 = 0.2;
@@ -41,7 +41,7 @@ const WARN: f64 = 0.01;
 pub(super) struct Missing {
     /// Number of missing frames, a whole number.
     pub(super) frames: f64,
-    /// Rows after the gaps.
+    /// First row after each gap.
     rows: Vec<usize>,
     /// Number of steps of the stream.
     steps: usize,
@@ -167,7 +167,7 @@ fn is_cut(stream: &Stream, period: f64) -> bool {
 mod tests {
     use super::*;
 
-    /// Number of missing frames in a stream whose steps are these multiples of 1/30 s.
+    /// Number of missing frames in a stream whose steps are `periods` times 1/30 s.
     fn missing_of(periods: &[f64]) -> f64 {
         let seconds: Vec<f64> = periods.iter().map(|periods| periods / 30.0).collect();
         Missing::of(&Stream::of_seconds(&seconds)).map_or(0.0, |missing| missing.frames)

@@ -18,7 +18,7 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum number of rows. In fewer rows, two taxels may be equal by chance.
 const LEAST: u64 = 5;
-/// Maximum number of names in a message.
+/// Maximum number of taxels named in a message.
 const NAMED: usize = 5;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {

@@ -17,7 +17,7 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum number of depths for the check.
 const LEAST: usize = 3;
-/// Maximum plausible depth of a press, mm. The thickest gels on sale have 10 mm.
+/// Maximum plausible median depth of presses, mm. The thickest gels on sale have 10 mm.
 const DEEPEST_MM: f64 = 12.0;
 /// Depths are distances if none falls below this fraction of the greatest depth, and all exceed `DISTANCE_MM`.
 const NEVER_BELOW: f64 = 0.5;

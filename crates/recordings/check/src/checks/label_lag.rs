@@ -18,9 +18,9 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum number of samples in a stream for detecting a lag.
+/// Minimum number of samples of all streams together for detecting a lag.
 const LEAST: usize = 50;
-/// Maximum lag that is searched: a number of steps, and a fraction of the samples.
+/// Maximum lag that is searched, in steps. At most one in `SHARE` samples may lack a partner at a lag.
 const FURTHEST: usize = 60;
 const SHARE: usize = 4;
 /// Minimum correlation of pictures and forces at the lag. `BETTER` is the minimum factor by which the lag reduces the unexplained variance.
@@ -29,7 +29,7 @@ const BETTER: f64 = 1.5;
 /// Number of parts of the recording. Most parts with a varying force must also show the lag, because a drift can feign a lag of the recording as a
 /// whole.
 const PARTS: usize = 3;
-/// Minimum variance of the force in a part, as a fraction of the greatest variance.
+/// Minimum variance of the force in a part, as a fraction of the greatest variance of a part.
 const LOADED: f64 = 0.1;
 /// Maximum lag that the slow recovery of a gel explains, s.
 const SLOW_GEL_S: f64 = 0.1;
@@ -98,7 +98,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found.into_iter().collect()
 }
 
-/// Map entry that removes a lag of `seconds` of the channel `name`. `None` unless the channel is joined by time with a single lag.
+/// Import-map entry that removes a lag of `seconds` of the channel `name`. `None` unless the channel is joined by time with a single lag.
 fn line(evidence: &Evidence<'_>, name: &str, seconds: f64) -> Option<String> {
     let mut columns = evidence.header.columns.iter();
     let column = columns.find(|column| column.label == name)?;
@@ -151,7 +151,7 @@ struct Lag {
     standing: f64,
 }
 
-/// Time, s, picture value, and force.
+/// Time, s; change or brightness of the picture; and absolute load.
 type Instant = (f64, f64, f64);
 
 /// Streams of each sensor unit, with the means of the unit subtracted, because units may differ in brightness.

@@ -14,13 +14,13 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Remedy for a recording of this program, which has no map.
+/// Remedy for a recording made by this program, which has no import map.
 const OF_RECORDING: &str = "look at these samples: a transducer that was overloaded or read during motion gives such labels; state why they are \
     right, or write the recording with `taceva export`, and import it without them by [drop] of its map.toml";
 
 /// Distance of Tukey's outer fences from the quartiles, in interquartile ranges.
 const FENCE: f64 = 3.0;
-/// Minimum gap below the outliers, as a fraction of the distance from the quartile to the label below the gap.
+/// Minimum gap between outliers and other labels, as a fraction of the distance from the upper quartile to the greatest other label.
 const GAP: f64 = 0.5;
 /// Maximum frequency of outliers: one in this many labels. More values are a group.
 const MOST: usize = 20;
@@ -61,10 +61,10 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// Maximum number of pictures or rows in a map entry.
+/// Maximum number of pictures or rows in an import-map entry.
 const LISTED: usize = 20;
 
-/// Map entry that leaves out `rows`; empty if the rows were not imported.
+/// Import-map entry that leaves out `rows`; empty if the rows were not imported.
 fn drop_line(evidence: &Evidence<'_>, rows: &[usize]) -> String {
     let line = match pictures_of(evidence, rows) {
         Some(names) => Some(("frames_named", names)),
@@ -84,7 +84,7 @@ fn drop_line(evidence: &Evidence<'_>, rows: &[usize]) -> String {
     )
 }
 
-/// Pictures of `rows`, as a map names them; `None` if they are not files, or if a row has several pictures.
+/// Pictures of `rows`, as an import map names them; `None` if the pictures are not single files, or if a row has several pictures.
 fn pictures_of(evidence: &Evidence<'_>, rows: &[usize]) -> Option<Vec<String>> {
     let header = evidence.header;
     let pictures = header.mapping().pictures;
@@ -101,7 +101,7 @@ fn pictures_of(evidence: &Evidence<'_>, rows: &[usize]) -> Option<Vec<String>> {
         .collect()
 }
 
-/// Numbers of `rows` in their tables, as a map names them, with the table if there are several. `None` if a row has no such number.
+/// Numbers of `rows` in their tables, as an import map names them, with the table if there are several. `None` if a row has no such number.
 fn numbers_of(evidence: &Evidence<'_>, rows: &[usize]) -> Option<Vec<String>> {
     let (tables, numbers) = (evidence.table.source_table(), evidence.table.source_row());
     let are_several = tables.windows(2).any(|pair| pair[0] != pair[1]);
@@ -128,8 +128,8 @@ struct Outliers {
     next: f64,
 }
 
-/// Values above Tukey's outer fence and above a gap. The gap must exceed the interquartile range, and [`GAP`] times the tail below it. The second condition
-/// accepts long tails, such as a few presses with much shear.
+/// Values above Tukey's outer fence and above a gap. The gap must exceed the interquartile range, and [`GAP`] times the distance from the upper
+/// quartile to the gap. The second condition accepts long tails, such as a few presses with much shear.
 fn above(mut values: Vec<(f64, usize)>) -> Option<Outliers> {
     if values.len() < LEAST {
         return None;

@@ -1,4 +1,4 @@
-//! TAC007: test samples that are nearly equal to training samples, or of the same cluster of a task.
+//! TAC007: test samples whose frame, contact point, cluster or neighbours are also in the training or validation part.
 
 use std::collections::BTreeSet;
 

@@ -18,7 +18,7 @@ pub(super) static CHECK: Check = Check {
 const VALUES: usize = 10;
 /// Tolerance at the ends of the range, for labels rounded to binary32.
 const ROUNDING: f64 = 1e-6;
-/// Minimum number of channels with the range of normalised labels, because a single channel may have this range by chance.
+/// Minimum number of channels with the range of normalised labels, if there are several. A single channel may have this range by chance.
 const CHANNELS: usize = 2;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {

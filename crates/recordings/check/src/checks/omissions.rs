@@ -18,7 +18,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Maximum number of names in a message.
+/// Maximum number of files or columns named in a message.
 const NAMED: usize = 5;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -131,7 +131,7 @@ fn is_by_time(evidence: &Evidence<'_>, name: &str) -> bool {
     joins.any(|join| join.name == name && join.by == "time")
 }
 
-/// First few names, with their counts.
+/// Names with their counts, at most [`NAMED`] of them.
 fn named(counts: &BTreeMap<String, u64>) -> String {
     let words = counts.iter();
     let words = words.map(|(name, count)| format!("{} {count}", shown(name)));

@@ -17,7 +17,8 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum number of samples for a rank correlation.
 const LEAST: usize = 10;
-/// Rank correlation of load and distance from the reference, below which the reference is suspect. A correct reference gives a clearly positive correlation.
+/// Rank correlation of load and picture change since the reference, below which the reference is suspect. A correct reference gives a clearly
+/// positive correlation.
 pub(super) const SUSPECT: f64 = -0.3;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {

@@ -34,7 +34,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     .collect()
 }
 
-/// Finds rows that the map declares as without contact but whose label is a load.
+/// Finds rows that the map declares as without contact but whose label shows a load.
 fn loaded(evidence: &Evidence<'_>, facts: &SignalFacts, load: usize) -> Option<Found> {
     let column = evidence.table.truth(load);
     let all = (0..column.len()).filter_map(|row| column.get(row));
@@ -56,7 +56,7 @@ fn loaded(evidence: &Evidence<'_>, facts: &SignalFacts, load: usize) -> Option<F
     Some(evidence.found(Severity::Warning, message, &pressed))
 }
 
-/// Finds a mean of the rows without contact that is closer to samples with more load than to samples with less load.
+/// Finds signals that are nearer to their mean without contact, the greater the load is.
 fn resembling(evidence: &Evidence<'_>, facts: &SignalFacts, load: usize) -> Option<Found> {
     let column = evidence.table.truth(load);
     let rows = facts.distance.iter().enumerate();

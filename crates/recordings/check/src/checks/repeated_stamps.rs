@@ -1,4 +1,4 @@
-//! TAC036: labels that are joined by repeated times, from a clock of whole seconds or a stopped clock.
+//! TAC036: labels joined by time stamps that repeat, because a clock counts whole seconds or has stopped.
 
 use std::collections::BTreeSet;
 

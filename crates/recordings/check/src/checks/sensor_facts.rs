@@ -14,7 +14,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Remedy for a recording of this program, which has no map.
+/// Remedy for a recording made by this program, which has no import map.
 const OF_RECORDING: &str = "complete dataset.toml and accept the edit with `taceva reseal`; for the next recording, state `--serial` and `--gel` \
     of `taceva capture`, or `units` and `opaque` of the scene";
 

@@ -20,7 +20,8 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum number of runs of rows with the same label.
 const LEAST: usize = 5;
-/// Minimum median length of a run, rows. Nine in ten runs must be at most `ALIKE` medians long, because levels held on purpose vary more.
+/// Minimum median length of a run, rows. The ninetieth percentile of the lengths is at most `ALIKE` medians, because levels held on purpose vary
+/// more.
 const ROWS: usize = 2;
 const ALIKE: usize = 2;
 
@@ -78,16 +79,17 @@ fn of_join(evidence: &Evidence<'_>, join: &MappedJoin) -> Option<Found> {
     Some(Found::overall(Severity::Warning, message))
 }
 
-/// Runs of consecutive rows with the same label, clock by clock.
+/// Runs of consecutive rows with the same label, for each clock separately.
 struct Stretches {
     all: Vec<Vec<usize>>,
-    /// Total number of rows.
+    /// Number of rows in all runs.
     rows: usize,
     times: Vec<Option<f64>>,
 }
 
 impl Stretches {
-    /// Runs of equal labels of `channels`. `None` if most rows have a different label than their neighbours, or levels were held on purpose.
+    /// Runs of equal labels of `channels`. `None` if there are few runs, if most have one row, or if their lengths vary as for levels held on
+    /// purpose.
     fn of(table: &Table, channels: &[(usize, &Channel)]) -> Option<Stretches> {
         let times = table.t_s();
         let label = |row: usize| -> Option<Vec<u64>> {
@@ -147,7 +149,7 @@ impl Stretches {
         self.times[row].unwrap_or_default()
     }
 
-    /// Maximum age of a label, s: half a run for `nearest`, a whole run for `before`.
+    /// Maximum age of a label, s: a whole run if the join picks the reading `before`, otherwise half a run.
     fn oldest_s(&self, pick: Option<&str>) -> f64 {
         let spans = self.all.iter().map(|stretch| {
             let (first, last) = (stretch[0], stretch[stretch.len() - 1]);

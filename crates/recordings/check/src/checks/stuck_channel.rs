@@ -14,11 +14,11 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum length of a frozen stretch, samples. `STILL_SHARE` is its minimum fraction of all samples.
+/// Minimum length of a stretch in which a force is frozen, samples. `STILL_SHARE` is its minimum fraction of all samples, as one in this many.
 const STILL: usize = 20;
 const STILL_SHARE: usize = 10;
-/// Minimum number of samples outside the frozen stretch. At most one in `HELD` of them may repeat the previous value, because a channel that is often
-/// held is not stuck.
+/// Minimum number of samples outside the frozen stretch. If more than one in `HELD` of these samples repeats the previous value, the channel is often
+/// held and not stuck.
 const BESIDE: usize = 10;
 const HELD: usize = 10;
 /// Maximum frequency of repeated pictures in the frozen stretch: one in this many. If the pictures also freeze, the whole recording is frozen.
@@ -26,8 +26,8 @@ const SAME_PICTURES: usize = 10;
 /// Minimum number of samples at the limit of a clipped force. `CUT_SHARE` is their minimum frequency.
 const CUT: usize = 10;
 const CUT_SHARE: usize = 20;
-/// Minimum ratio of the frequency of the limit to the frequency of any other value, among at least `VALUES` values. Commanded levels have a lower
-/// ratio.
+/// Minimum ratio of the samples at the limit to the samples at any other value. The force must have at least `VALUES` values. Commanded levels have a
+/// lower ratio.
 const TIMES: usize = 3;
 const VALUES: usize = 20;
 

@@ -14,7 +14,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum number of samples for a constant value to count.
+/// Minimum number of samples for a finding about a constant taxel.
 const LEAST: u64 = 10;
 /// Maximum number of taxels named in a message; the others are counted.
 const NAMED: usize = 5;

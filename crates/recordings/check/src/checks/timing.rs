@@ -18,16 +18,16 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Remedy for a recording of this program, whose devices and drivers stamped the frames.
+/// Remedy for a recording made by this program, whose devices and drivers stamped the frames.
 const OF_RECORDING: &str = "the device or its driver stamped these frames: check it with `taceva rig check`, end other programs on this machine, \
     and record again";
 
 /// Minimum number of samples for computing a rate.
 const LEAST: usize = 10;
-/// Length above which a step is a gap, in usual steps, including a tolerance for rounding.
+/// Length above which a step is a gap, in median steps, including a tolerance for rounding.
 const GAP: f64 = 3.0;
 const ROUNDING: f64 = 1e-6;
-/// Maximum relative difference, in a regular stream, between the usual step and the mean of the steps without gaps.
+/// Maximum relative difference, in a regular stream, between the median step and the mean of the steps without gaps.
 const ALIKE: f64 = 0.05;
 
 /// Last words of the message about a sample rate without gaps, which needs no fix.
@@ -124,7 +124,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// True if the times restart at every contact point. An episode can be a contact point. A clock that was set back once restarts at one contact point
+/// True if the times restart at every contact point, as in a recording of episodes. A clock that was set back once restarts at one contact point
 /// only.
 fn starts_anew(table: &Table, pairs: &[(usize, usize)]) -> bool {
     let times = table.t_s();
@@ -143,7 +143,7 @@ fn starts_anew(table: &Table, pairs: &[(usize, usize)]) -> bool {
     changes > 0 && pairs.len() >= 2 * changes
 }
 
-/// Sample rate from the usual step, which is the median of the forward steps. Pauses between presses therefore do not affect the rate.
+/// Finding about the sample rate, computed from the median of the forward steps. Pauses between presses therefore do not affect the rate.
 fn rate(steps: &[(usize, f64)], missing: Option<&Missing>) -> Found {
     let mut forward: Vec<f64> = steps.iter().map(|(_, seconds)| *seconds).collect();
     forward.retain(|seconds| *seconds > 0.0);

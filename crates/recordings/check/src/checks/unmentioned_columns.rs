@@ -16,7 +16,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Maximum number of columns in a note.
+/// Maximum number of unused columns named in a note.
 const NAMED: usize = 12;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {

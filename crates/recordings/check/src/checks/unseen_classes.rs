@@ -1,4 +1,4 @@
-//! TAC030: classes of a task without a sample in one part of the named split, or in all folds of the task but one.
+//! TAC030: classes of a task without a sample in the recording, in a part of the named split, or in all folds but one.
 
 use std::collections::BTreeSet;
 

@@ -16,14 +16,14 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum number of samples on each side of a step, and in total.
+/// Minimum number of samples on each side of a step. `LEAST` is the minimum number in total.
 const SIDE: usize = 4;
 const LEAST: usize = 8;
-/// Minimum shift, as a fraction of the 95th percentile of the labels.
+/// Minimum shift of the zero, as a fraction of the 95th percentile of the absolute labels.
 const SHARE: f64 = 0.02;
-/// Minimum shift, in standard errors of the shift. The value is large because the position of a step is searched.
+/// Minimum shift of the zero, in standard errors of the shift. The value is large because the position of a step is searched.
 const CLEAR: f64 = 6.0;
-/// Rounding of labels with few decimals, as a fraction of the greatest label. Rounding does not count as scatter.
+/// Rounding of labels with few decimals, as a fraction of the 95th percentile of the absolute labels. Rounding does not count as scatter.
 const ROUNDING: f64 = 1e-4;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -96,13 +96,13 @@ fn of_channel(
     Some(evidence.found(Severity::Warning, message, &shifted))
 }
 
-/// First time stamp of the recording, s.
+/// Earliest time stamp of the recording, s.
 fn first_time(evidence: &Evidence<'_>) -> f64 {
     let times = evidence.table.t_s().iter().flatten();
     times.copied().fold(f64::INFINITY, f64::min)
 }
 
-/// Step at the position with the least residual scatter.
+/// Step between two constant levels, fitted to a series of values by least squares.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     /// Index of the first value after the step.
@@ -116,7 +116,7 @@ struct Step {
 }
 
 impl Step {
-    /// Best step in `values`, which must be in order of time. `least` is the scatter due to rounding.
+    /// Step that fits `values` best; the values must be in order of time. `least` is the minimum scatter, which is due to rounding.
     fn of(values: &[f64], least: f64) -> Option<Step> {
         let mut sums = vec![(0.0, 0.0)];
         for value in values {
@@ -146,7 +146,7 @@ impl Step {
     }
 }
 
-/// Straight line fitted to the values.
+/// Straight line fitted to values over time by least squares.
 #[derive(Clone, Copy, Debug)]
 struct Drift {
     /// Change of the line from the first time to the last.

@@ -6,7 +6,7 @@ use super::codes;
 use super::lab::{SENSOR, imported};
 use super::streams::{message, says_nothing};
 
-/// 10 o'clock on 2026-11-29 and on 2027-05-13, UTC.
+/// Unix time of 10:00 UTC on 2026-11-29, s. `EXPIRED_S` is the same hour on 2027-05-13.
 const VALID_S: u64 = 1_795_946_400;
 const EXPIRED_S: u64 = 1_810_202_400;
 
@@ -21,7 +21,7 @@ U = { Fz = "3.0 mN" }
 range = { Fz = ["0.05 N", "50 N"] }
 "#;
 
-/// Report on these forces, measured from `begun_s` on, and imported by a map with `instruments`.
+/// Report on `forces`, one each second from `begun_s` on, imported by a map with the certificates `instruments`.
 fn checked(forces: &[f64], begun_s: u64, instruments: &str) -> CheckReport {
     let rows = (begun_s..).zip(forces);
     let rows = rows.map(|(time, force)| format!("{time},{force}\n"));

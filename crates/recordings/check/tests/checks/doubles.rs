@@ -5,7 +5,7 @@ use taceva_check::CheckReport;
 use super::lab::{PICTURES, SENSOR, imported, pictures};
 use super::streams::{message, says_nothing};
 
-/// Report on a table whose channels are read from these columns.
+/// Report of the check `only` on `table`, imported by a map with the channels `columns`.
 fn labelled(table: &str, columns: &str, only: &str) -> CheckReport {
     let rows = table.lines().count() - 1;
     let files = [
@@ -56,7 +56,7 @@ fn a_column_that_is_mapped_twice_with_two_signs_or_written_twice_is_named_and_th
     says_nothing(&labelled(TWICE, &axes, "TAC038"), "TAC038");
 }
 
-/// Table of `rows` rows with one or two columns.
+/// Table of `rows` rows below the header line `head`. `cells` writes each row.
 fn table(rows: u32, head: &str, cells: impl Fn(u32) -> String) -> String {
     let rows = (0..rows).map(cells);
     std::iter::once(head.to_owned())

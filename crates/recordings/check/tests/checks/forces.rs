@@ -6,7 +6,7 @@ use super::lab::{SENSOR, imported};
 use super::streams::{message, says_nothing};
 use super::{Recording, picture, readings};
 
-/// Report on a recording with these normal forces.
+/// Report on a recording with the normal forces `force`, after `change`.
 fn with_forces(force: impl Fn(u32) -> f64, change: impl FnOnce(&mut Recording)) -> CheckReport {
     let mut recording = Recording::sound();
     for (number, sample) in (0..).zip(&mut recording.samples) {

@@ -5,7 +5,7 @@ use super::lab::{PICTURES, SENSOR, imported, pictures};
 use super::streams::{message, says_nothing};
 use taceva_check::Severity;
 
-/// Report on a recording of `cam.csv`, with forces of `ft.csv` joined by time.
+/// Report on the main table `cam`, with the forces of the table `ft` joined by time.
 fn joined(cam: &str, ft: &str, pick: &str, only: &[&str]) -> taceva_check::CheckReport {
     let rows = cam.lines().count() - 1;
     let presses: Vec<f64> = (0..rows)

@@ -15,7 +15,7 @@ pub(super) const SENSOR: &str =
 pub(super) const PICTURES: &str =
     "[frame]\narray = { file = \"f.npy\" }\nchannel_order = \"gray\"\nreference = \"unknown\"\n";
 
-/// Size of a picture, pixels.
+/// Width of a picture, pixels. `HEIGHT` is its height.
 const WIDTH: u32 = 24;
 const HEIGHT: u32 = 16;
 
@@ -42,12 +42,12 @@ pub(super) fn pictures(presses: &[f64]) -> Vec<u8> {
     bytes
 }
 
-/// Imports a folder with `files` by this map, and runs the checks with the codes `only`.
+/// Imports a folder with `files` by `map`, and runs the checks with the codes `only`.
 pub(super) fn imported(files: &[(&str, Vec<u8>)], map: &str, only: &[&str]) -> CheckReport {
     imported_and_split(files, map, only, None)
 }
 
-/// Imports and checks like [`imported`], with this split.
+/// Imports and checks like [`imported`], with the split `split`.
 pub(super) fn imported_and_split(
     files: &[(&str, Vec<u8>)],
     map: &str,

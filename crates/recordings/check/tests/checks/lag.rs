@@ -1,8 +1,8 @@
-//! Tests of a clock of the forces that differs from the clock of the pictures.
+//! Tests of forces and pictures whose clocks differ.
 
 use super::{Recording, picture, readings};
 
-/// Force of a sample in presses of 40 samples, all different.
+/// Force of sample `number`, in presses of 40 samples whose depths vary.
 fn press(number: u32) -> f64 {
     let depth = 0.4 + 0.2 * f64::from(number / 40 * 3 % 4);
     depth * (1.0 - (f64::from(number % 40) / 20.0 - 1.0).abs())

@@ -10,7 +10,7 @@ const BEGIN_S: u32 = 1_729_990_790;
 /// Row before which the clock is set back.
 const CHANGE: u32 = 100;
 
-/// Report on 200 rows in 20 s, in a file of this form. `time` writes the time of a row as a cell.
+/// Report on 200 rows in 20 s, in a file with the extension `form`. `time` writes the time of a row as a cell.
 fn report(form: &str, [clock, unit]: [&str; 2], time: impl Fn(u32) -> String) -> CheckReport {
     let force = |row: u32| 1.0 + 0.02 * f64::from(row * 37 % 50);
     let (slash, head) = match form {

@@ -76,7 +76,7 @@ impl Recording {
         self.check_beside(request, None)
     }
 
-    /// Report on the recording, with this table of sessions beside it.
+    /// Report on the recording, with the session table `sessions` beside it.
     fn check_beside(self, request: &str, sessions: Option<&str>) -> CheckReport {
         let folder = tempfile::tempdir().expect("a folder");
         let dataset = self.write(&folder.path().join("data"));

@@ -1,4 +1,4 @@
-//! Tests of neighbours on both sides of a division, and of the clusters of a test part without points.
+//! Tests of similar samples in the training and the test part, and of the clusters of a test part without contact points.
 
 use taceva_check::{CheckReport, Severity};
 

@@ -1,18 +1,18 @@
-//! Tests of remedies: a recording of this program has no map to change.
+//! Tests of remedies for recordings made by this program, which have no import map.
 
 use taceva_check::{CheckReport, Finding};
 
 use super::lab::{SENSOR, imported};
 use super::{Recording, readings};
 
-/// The finding with this code.
+/// Finding of the check `code` in `report`.
 #[track_caller]
 fn finding<'r>(report: &'r CheckReport, code: &str) -> &'r Finding {
     let found = report.findings.iter().find(|own| own.code == code);
     found.unwrap_or_else(|| panic!("{code}: {:#?}", report.findings))
 }
 
-/// Report on a recording of this program with an unknown gel, a far force and a time that steps back.
+/// Report on a recording of this program with an unknown gel, an outlying force and a time that steps back.
 fn recorded() -> CheckReport {
     let mut recording = Recording::sound();
     recording.facts.gel = "unknown".into();

@@ -4,7 +4,7 @@ use taceva_check::{CheckReport, Severity};
 
 use super::lab::{SENSOR, imported};
 
-/// Findings of these checks on 25 presses. The log contains the time and the force of each number; `drop` is a section of the map.
+/// Findings of the checks `only` on 25 presses. The log contains the time and the force of each press; `drop` is a section of the map.
 fn checked(time: fn(u32) -> f64, force: fn(u32) -> f64, drop: &str, only: &[&str]) -> CheckReport {
     let fixture = concat!(
         env!("CARGO_MANIFEST_DIR"),
@@ -22,12 +22,12 @@ fn checked(time: fn(u32) -> f64, force: fn(u32) -> f64, drop: &str, only: &[&str
     imported(&files, &map, only)
 }
 
-/// Times of presses 4.3 s apart, in a different order than the names of the pictures.
+/// Time of press `number`, s. Presses are 4.3 s apart, in a different order than the names of their pictures.
 fn shuffled(number: u32) -> f64 {
     1.76e9 + 4.3 * f64::from(number * 7 % 25)
 }
 
-/// Forces up to 2.4 N, except 15 N in press 7.
+/// Force of press `number`, N: up to 2.4 N, except 15 N in press 7.
 fn one_far(number: u32) -> f64 {
     match number {
         7 => 15.0,

@@ -6,7 +6,7 @@ use taceva_core::{Clock, Stamp};
 use super::streams::{message, regular, says_nothing, stamped};
 use super::{Recording, SAMPLES, codes, found};
 
-/// Report on a recording with these time stamps and without contact points.
+/// Report on a recording with the time stamps `time` and without contact points.
 fn without_points(time: impl Fn(u32) -> f64) -> CheckReport {
     stamped(time, |recording| {
         for sample in &mut recording.samples {

@@ -10,7 +10,7 @@ use taceva_import::{ImportMap, ImportPlan};
 
 use super::{Recording, SAMPLES, codes};
 
-/// Report on a recording with these time stamps, s.
+/// Report on a recording with the time stamps `time`, s, after `change`.
 pub(super) fn stamped(
     time: impl Fn(u32) -> f64,
     change: impl FnOnce(&mut Recording),
@@ -155,7 +155,7 @@ fn frames_of_one_colour_are_found_by_a_check_that_is_asked_for_alone() {
     );
 }
 
-/// Report of the checks with the codes `only` on an import.
+/// Report of the checks with the codes `only` on `files`, imported by `map`.
 fn imported(files: &[(&str, &str)], map: &str, only: &[&str]) -> CheckReport {
     let folder = tempfile::tempdir().expect("a folder");
     for (name, text) in files {

@@ -1,4 +1,4 @@
-//! Labels of tasks: classes that a part lacks, contradictory labels, quaternions that are no rotations, and clusters in two parts.
+//! Tests of labels of tasks: classes missing from a part, contradictory labels, quaternions without norm 1, and clusters in two parts.
 
 use std::fmt::Write as _;
 use std::num::NonZeroUsize;
@@ -27,7 +27,7 @@ fn materials(rows: &str, code: &str) -> CheckReport {
     checked(rows, code, Some("declared"))
 }
 
-/// Findings like those of [`materials`], with this split.
+/// Findings like those of [`materials`], with the split `split`.
 fn checked(rows: &str, code: &str, split: Option<&str>) -> CheckReport {
     let table = format!("part,clip,material\n{rows}");
     let map = format!("{MATERIALS}{SENSOR}");

@@ -1,4 +1,4 @@
-//! Clips of a drawn folder in the layout of Touch and Go, of which a hundred of 106 tested ones are learnt from.
+//! Tests of generated clips in the layout of Touch and Go, of which 100 of 106 tested clips are also training clips.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -10,10 +10,10 @@ use taceva_core::SilentProgress;
 use taceva_dataset::Dataset;
 use taceva_import::{ImportPlan, Preset};
 
-/// Division by the list that names a picture.
+/// Split that takes the part of a picture from the list that names the picture.
 const LISTS: &str = "by-column:source_table=train:train.txt;test:test.txt";
 
-/// Report on clips of these lists, each line with the clip and the number of a picture. All pictures are one JPEG.
+/// Report on the clips of two lists. Each entry is the number of a clip and of a picture in it. All pictures are copies of one JPEG.
 fn checked(test: &[(u32, u32)], train: &[(u32, u32)]) -> CheckReport {
     let picture = concat!(
         env!("CARGO_MANIFEST_DIR"),

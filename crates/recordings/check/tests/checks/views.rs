@@ -11,7 +11,7 @@ fn presses(phase: usize) -> Vec<f64> {
     (0..ROWS).map(press).collect()
 }
 
-/// Report on two arrays of pictures beside a table.
+/// Report on a table with two views, whose pictures are the arrays `left` and `right`.
 fn checked(left: &[u8], right: &[u8], only: &[&str]) -> CheckReport {
     let rows = presses(0).into_iter().map(|press| format!("{press},0.5\n"));
     let table = format!("force,still\n{}", rows.collect::<String>());
@@ -41,7 +41,7 @@ fn other_finger() -> Vec<u8> {
     bytes
 }
 
-/// The same pictures, with row `from` copied to row `to`.
+/// The pictures in `bytes`, with row `from` copied to row `to`.
 fn repeated(mut bytes: Vec<u8>, from: usize, to: usize) -> Vec<u8> {
     let begin = bytes.len() - ROWS * 24 * 16;
     let of = |row: usize| begin + row * 24 * 16..begin + (row + 1) * 24 * 16;

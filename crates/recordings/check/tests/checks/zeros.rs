@@ -43,7 +43,7 @@ fn press(number: u32) -> f64 {
     }
 }
 
-/// Report on 200 samples whose labels of `name` are the press plus `zero`.
+/// Report on 200 samples whose labels of `name` are the force of the press plus `zero`.
 fn with_zero(name: &str, time: bool, zero: impl Fn(u32) -> f64) -> CheckReport {
     let header = if time { "t,fz" } else { "fz" };
     let mut table = format!("{header}\n");

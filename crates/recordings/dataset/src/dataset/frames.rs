@@ -135,7 +135,7 @@ impl Dataset {
         Ok(bytes)
     }
 
-    /// First frame of the pack that contains `entry`, to which differences in this pack refer.
+    /// First frame of the pack that contains `entry`. The other frames of this pack are stored as differences from the first frame.
     fn first_entry(&self, entry: &FrameEntry) -> Result<&FrameEntry, DatasetError> {
         let is_first = |first: &&FrameEntry| first.begins(&entry.path) && !first.is_difference();
         let mut frames = self.table.frames().iter().flatten();
@@ -147,7 +147,7 @@ impl Dataset {
         })
     }
 
-    /// First frame of a pack, decoded once per pack.
+    /// First frame of the pack of `entry`, decoded once per pack.
     fn first_of_pack(
         &self,
         entry: &FrameEntry,

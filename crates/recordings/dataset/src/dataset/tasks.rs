@@ -70,7 +70,8 @@ impl Dataset {
     ///
     /// `labels` has a column for each of `channels`, with a label or none for each row.
     ///
-    /// # Errors [`DatasetError::Request`] for an unknown task, and for a wrong number of columns or of labels.
+    /// # Errors
+    /// [`DatasetError::Request`] for an unknown task, and for a wrong number of columns or of labels.
     pub fn with_labels(
         &self,
         name: &str,

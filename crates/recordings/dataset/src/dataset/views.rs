@@ -32,8 +32,8 @@ impl Dataset {
 
     /// The same dataset with the frames of the view `view`, or with several views side by side: `left+right`.
     ///
-    /// The digest depends on the dataset and on the view. Labels are unchanged. For several views, the table entries have no bytes, because no single file
-    /// contains the frame.
+    /// The digest depends on the dataset and on the view. Labels are unchanged. For several views, [`frame_bytes`](Dataset::frame_bytes) cannot read
+    /// an entry of the table, because no single file contains the frame.
     ///
     /// # Errors
     /// [`DatasetError::View`] if the view does not exist. [`DatasetError::Request`] if a view is named twice, or if pictures side by side differ in height or
@@ -80,7 +80,7 @@ impl Dataset {
         }
     }
 
-    /// Indices of the views in `view`.
+    /// Indices of the views that `view` names: two for `left+right`.
     fn positions(&self, view: &str) -> Result<Vec<usize>, DatasetError> {
         let mut seen = Vec::new();
         for name in view.split(BESIDE) {

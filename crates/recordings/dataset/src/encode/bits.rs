@@ -1,6 +1,6 @@
 //! Bit writer for deflate streams. The lowest bit of each number comes first.
 
-/// Up to 16 bits.
+/// Bit string of at most 16 bits.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Bits {
     value: u16,

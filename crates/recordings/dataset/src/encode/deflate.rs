@@ -9,7 +9,7 @@ use super::huffman;
 const BLOCK: usize = 31 * 1024 + 1;
 /// Size of a block, bytes, from which a separate code is used. Shorter blocks use the fixed code of the format.
 const SHORTEST_CODED: usize = 48;
-/// Number of symbols of a code: each byte, and the end of a block.
+/// Number of symbols of a code: 256 byte values, and the end of a block.
 const SYMBOLS: usize = 257;
 const END: usize = 256;
 /// Zlib header: deflate with a window of 32 KiB, and check bits that make the header a multiple of 31.
@@ -67,7 +67,7 @@ fn blocks(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     bytes[..whole].chunks(BLOCK).chain([&bytes[whole..]])
 }
 
-/// Code and length, bits, of a block. The type of the block begins at bit `bits` of the stream. The length counts from there.
+/// Code of a block, and its length in bits, counted from the type of the block. The type begins at bit `bits` of the stream.
 fn plan_block(block: &[u8], bits: usize) -> (Option<Coding>, usize) {
     let counts = counts(block);
     let coding = if block.len() < SHORTEST_CODED {
@@ -300,7 +300,7 @@ mod tests {
         assert!(written == expected(bytes), "{about}, {} bytes", bytes.len());
     }
 
-    /// Bytes from a linear congruential generator, each made from 24 even bits.
+    /// Bytes that `make` computes, each from 24 bits of a linear congruential generator.
     fn bytes(length: usize, make: impl Fn(u32) -> u8) -> Vec<u8> {
         let mut state = 7_u32;
         let mut next = || {

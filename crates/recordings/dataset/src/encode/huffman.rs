@@ -20,7 +20,7 @@ pub(super) fn lengths<const SYMBOLS: usize>(
     lengths
 }
 
-/// Code words of the canonical code with these lengths, of at most 15 bits.
+/// Code words of the canonical code with the lengths `lengths`, at most 15 bits each.
 pub(super) fn words<const SYMBOLS: usize>(lengths: &[u8; SYMBOLS]) -> [Bits; SYMBOLS] {
     let mut words = [Bits::default(); SYMBOLS];
     let mut next: u16 = 0;

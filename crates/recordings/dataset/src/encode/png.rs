@@ -207,7 +207,7 @@ mod tests {
     use super::*;
     use crate::decode::{ChannelOrder, decode};
 
-    /// Frame whose bytes are made from their place and a byte from a linear congruential generator.
+    /// Frame whose bytes `make` computes from their index and a byte of a linear congruential generator.
     fn made(info: FrameInfo, make: impl Fn(usize, u8) -> u8) -> Frame {
         let mut state = 7_u32;
         let length = info.byte_len().expect("small");
@@ -218,7 +218,7 @@ mod tests {
         Frame::new(info, bytes.collect()).expect("as long as it says")
     }
 
-    /// Smooth light with noise of two bits.
+    /// Frame with slowly varying brightness and two bits of noise.
     fn noisy(width: u32, height: u32, format: PixelFormat) -> Frame {
         let info = FrameInfo {
             width,
@@ -230,7 +230,7 @@ mod tests {
         })
     }
 
-    /// File of `frame`, as long as it was planned.
+    /// PNG file of `frame`. Asserts that the file has its planned length.
     fn written(frame: &Frame) -> Vec<u8> {
         let planned = PngFile::plan(frame).expect("planned");
         let file = planned.write();

@@ -59,7 +59,7 @@ impl Place {
         }
     }
 
-    /// The same column without a row.
+    /// The same location without a row.
     pub fn without_row(self) -> Place {
         Place { row: None, ..self }
     }

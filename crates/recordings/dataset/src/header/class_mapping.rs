@@ -1,4 +1,4 @@
-//! Closed list of classes in a map.
+//! Closed list of classes in an import map.
 
 use serde::{Deserialize, Serialize};
 

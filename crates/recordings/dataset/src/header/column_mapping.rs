@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::map_conflict::{Misread, differing, number, quoted};
 
-/// Mapping of a label by an import. Before rows are added with another map, both mappings are compared. Another unit, sign or matrix for the same
-/// column would give wrong numbers without an error.
+/// Mapping of a label by an import. Before rows are added with another import map, both mappings are compared. Another unit, sign or matrix for the
+/// same column would give wrong numbers without an error.
 ///
 /// ```
 /// let text = "label = \"Fz\"\nfrom = [\"force_z\"]\nunit = \"mN\"\nsign = -1\n";
@@ -45,7 +45,7 @@ pub struct MappedColumn {
     pub gravity: Option<String>,
 }
 
-/// Remedy for a column that was mapped differently before.
+/// Remedy for a column that an earlier import mapped differently.
 const OTHER_COLUMN: &str =
     "if the column was recorded differently this time, rename it in the table";
 
@@ -66,7 +66,7 @@ impl MappedColumn {
         }
     }
 
-    /// Key in the map for the setting `word`.
+    /// Key in the import map for the setting `word`.
     fn key(&self, word: &str) -> String {
         let is_matrix = self.from.len() > 1 && !self.factors.is_empty();
         match (self.label.as_str(), word) {
@@ -109,8 +109,8 @@ impl MappedColumn {
     }
 }
 
-/// First column of `new`, from another map, that contradicts `known`: a source column with other settings or for another label. Source columns with
-/// other names are ignored.
+/// First column of `new`, from another map, that contradicts `known`, because the column has another setting or another label there. Source columns
+/// that `known` lacks are ignored.
 pub(super) fn misread(known: &[MappedColumn], new: &[MappedColumn]) -> Option<Misread> {
     new.iter().find_map(|column| {
         let same_label = known.iter().filter(|known| known.label == column.label);

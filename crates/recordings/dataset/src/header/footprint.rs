@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Footprint {
-    /// Shape of the outline, which determines the lengths below.
+    /// Shape of the outline. Determines which of the other lengths are present.
     pub shape: Shape,
     /// Radius of a disc, mm; `None` for a rectangle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -53,7 +53,7 @@ pub enum Shape {
 }
 
 impl Footprint {
-    /// Disc with this radius, mm.
+    /// Disc with the radius `radius_mm`, mm.
     pub fn disc(radius_mm: f64) -> Footprint {
         Footprint {
             shape: Shape::Disc,
@@ -64,7 +64,7 @@ impl Footprint {
         }
     }
 
-    /// Rectangle with these half widths along x and y, mm.
+    /// Rectangle with the half widths `half_x_mm` along x and `half_y_mm` along y, mm.
     pub fn rectangle(half_x_mm: f64, half_y_mm: f64) -> Footprint {
         Footprint {
             shape: Shape::Rect,

@@ -22,16 +22,16 @@ pub struct MappedJoin {
     /// Pairs for a join by columns: `column of the main table = column of this table`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub on: Vec<String>,
-    /// Time column; for `until`, the column with the number of the main-table row before which a row of this table applies.
+    /// Time column. For `until`, a row of this table applies to rows of the main table before the number in this column.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub column: Option<String>,
-    /// Unit of the time column; `None` for other joins.
+    /// Unit of the time column; `None` unless the join is by time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
     /// Rule that picks a row by time: `nearest`, `before` or `linear`; `None` for other joins.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pick: Option<String>,
-    /// Maximum time difference, ms; `None` for other joins.
+    /// Maximum time difference of matching rows, ms; `None` unless the join is by time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance_ms: Option<f64>,
     /// Lead of this table's clock over the clock of the main table, ms. `None` if the lead differs by row, or for other joins.
@@ -42,13 +42,13 @@ pub struct MappedJoin {
     pub lag_by: Vec<String>,
     /// Treatment of rows of the main table without a match: `drop` or `refuse`.
     pub unmatched: String,
-    /// Excluded rows: `column = number`.
+    /// Conditions that exclude rows of this table: `column = number`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub skip: Vec<String>,
 }
 
 impl MappedJoin {
-    /// Table `name`, joined by `by`. Rows of the main table without a match are rejected.
+    /// Join of the table `name`, of the kind `by`. A row of the main table without a match stops the import.
     pub fn new(name: &str, by: &str) -> MappedJoin {
         MappedJoin {
             name: name.to_owned(),
@@ -65,7 +65,7 @@ impl MappedJoin {
         }
     }
 
-    /// Settings that determine the matching of rows, by the keys of a map.
+    /// Settings that determine the matching of rows, by the keys of an import map.
     pub(super) fn facts(&self) -> Vec<Fact> {
         let name = &self.name;
         let key = |word: &str| format!("join.{name}.{word}");

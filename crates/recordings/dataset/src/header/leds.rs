@@ -42,13 +42,13 @@ pub struct Leds {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum PictureSide {
-    /// First column.
+    /// Left edge: the first pixel column.
     Left,
-    /// Last column.
+    /// Right edge: the last pixel column.
     Right,
-    /// First row.
+    /// Upper edge: the first pixel row.
     Top,
-    /// Last row.
+    /// Lower edge: the last pixel row.
     Bottom,
 }
 

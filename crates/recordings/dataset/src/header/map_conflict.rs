@@ -1,9 +1,9 @@
-//! Conflicts between two maps, by key.
+//! Conflicts between two import maps, by key.
 
-/// Key of a map, and its value.
+/// Key of an import map, and its value.
 pub(super) type Fact = (String, String);
 
-/// Key of a map whose value differs from an earlier map.
+/// Key of an import map whose value differs from an earlier map.
 #[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Misread {

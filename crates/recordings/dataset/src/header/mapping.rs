@@ -1,4 +1,4 @@
-//! Mappings of the imports of a dataset, and conflicts with another map.
+//! Mappings of the imports of a dataset, and conflicts with another import map.
 
 use super::class_mapping::MappedClass;
 use super::column_mapping::{MappedColumn, misread};
@@ -22,22 +22,22 @@ pub struct Mapping {
     pub rotations: Vec<Vec<String>>,
 }
 
-/// Remedy for a join that was mapped differently before.
+/// Remedy for a join that an earlier import mapped differently.
 const OTHER_JOIN: &str =
     "if that table was recorded differently this time, give the join another name in the map";
 /// Remedy for a list of classes that became longer.
 const LONGER_LIST: &str = "keep the list as it was, and add new names at its end";
-/// Remedy for an array that was mapped differently before.
+/// Remedy for an array that an earlier import mapped differently.
 const OTHER_ARRAY: &str =
     "if the pictures were written differently this time, give their array another name";
 
 impl Mapping {
-    /// True if no map is stored, because the dataset was recorded and not imported.
+    /// True if no import map is stored, because the dataset was recorded and not imported.
     pub fn is_empty(&self) -> bool {
         *self == Mapping::default()
     }
 
-    /// First key of the new map `new` that contradicts `self`. Entries with other names are ignored.
+    /// First key of the new import map `new` that contradicts `self`. Entries with other names are ignored.
     pub fn misread(&self, new: &Mapping) -> Option<Misread> {
         let columns = misread(&self.columns, &new.columns);
         let joins = new.joins.iter().find_map(|join| {

@@ -55,7 +55,7 @@ impl LeftOut {
         *self == LeftOut::default()
     }
 
-    /// Sum with `other`, an import that added rows.
+    /// Sum of these omissions and `other`, the omissions of an import that added rows.
     #[must_use]
     pub fn and(mut self, other: LeftOut) -> LeftOut {
         self.images += other.images;

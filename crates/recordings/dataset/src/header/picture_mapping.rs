@@ -20,7 +20,7 @@ pub struct MappedPictures {
     /// Column, pattern, array, or clip that contains the pictures; empty for the only array of a file.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub from: String,
-    /// Column of the index in an array or clip; `None` for the row number.
+    /// Column with the index of the picture in an array or clip; `None` if the row number is the index.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub index: Option<String>,
     /// Axes of an array: `nhwc`, `nhw` or `nchw`, if the map states them.
@@ -62,7 +62,7 @@ impl MappedPictures {
             }
     }
 
-    /// Settings that determine the pixels and their rows, by the keys of a map.
+    /// Settings that determine the pixels and their rows, by the keys of an import map.
     pub(super) fn facts(&self) -> Vec<Fact> {
         // Other layouts are distinguished by the lengths of the axes.
         let layout = match self.layout.as_deref() {

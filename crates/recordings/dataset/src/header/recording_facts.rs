@@ -35,7 +35,7 @@ pub struct RecordingFacts {
     pub sensor: SensorFacts,
     /// Sensing area, if known.
     pub footprint: Option<Footprint>,
-    /// Settings of camera, transducer (`force_…`) and robot (`robot_…`), read back, by name: `exposure_ms` is `15.7`; empty if unknown.
+    /// Settings read back from camera, transducer (`force_…`) and robot (`robot_…`), by name, such as `15.7` for `exposure_ms`; empty if unknown.
     pub settings: BTreeMap<String, String>,
     /// Instruments that measure the labels, with their certificates; empty if none is stated.
     pub traceability: Vec<Traceability>,

@@ -16,10 +16,10 @@ use taceva_core::FrameInfo;
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ReducedFrames {
-    /// Size and format of a camera frame.
+    /// Size and format of a camera frame before reduction.
     #[serde(flatten)]
     pub from: FrameInfo,
-    /// Description of the method.
+    /// Description of the reduction method.
     pub by: String,
 }
 

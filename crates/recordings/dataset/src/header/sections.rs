@@ -252,12 +252,12 @@ pub struct FrameCodec {
     /// Decoder, with its version if known; `None` if frames are stored undecoded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub decoder: Option<String>,
-    /// Bits of a sample in the clip, if above 8. Luma is stored in 16 bits without scaling.
+    /// Bits of a pixel value in the clip, if above 8. Luma is stored in 16 bits without scaling.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bits: Option<u8>,
 }
 
-/// Bits of a sample by the name of an FFmpeg pixel format, if above 8: 10 for `yuv420p10le`.
+/// Bits of a pixel value in an FFmpeg pixel format, by its name, if above 8: 10 for `yuv420p10le`.
 fn bits_of(pixel_format: &str) -> Option<u8> {
     let name = pixel_format.strip_suffix("le");
     let name = name.or_else(|| pixel_format.strip_suffix("be"))?;

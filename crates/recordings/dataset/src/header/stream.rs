@@ -30,7 +30,7 @@ impl StreamFacts {
         }
     }
 
-    /// The same stream with these losses.
+    /// The same stream with `dropped` and `damaged` frames.
     #[must_use]
     pub fn with_lost(self, dropped: u64, damaged: u64) -> StreamFacts {
         StreamFacts {

@@ -17,13 +17,13 @@ use super::FramesInfo;
 pub struct ViewInfo {
     /// Name of the view: a letter, then letters, digits or `_`.
     pub name: String,
-    /// Size, colours and number of its frames, and its reference frame.
+    /// Size, colours and number of the frames of this view, and its reference frame.
     #[serde(flatten)]
     pub frames: FramesInfo,
 }
 
 impl ViewInfo {
-    /// View `name` with these frames.
+    /// View called `name`, with its frames.
     pub fn new(name: impl Into<String>, frames: FramesInfo) -> ViewInfo {
         ViewInfo {
             name: name.into(),

@@ -30,7 +30,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// Parses the frame from the segment `body`.
+    /// Parses the frame header from the segment `body`.
     pub(super) fn parse(body: &[u8], is_progressive: bool) -> Result<Frame, String> {
         let cut = || "the frame header is truncated".to_owned();
         let [precision, _, _, _, _, count, rest @ ..] = body else {

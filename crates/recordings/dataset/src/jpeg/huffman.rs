@@ -2,17 +2,17 @@
 
 use super::bits::{Bits, ENDS_EARLY};
 
-/// Maximum length of codes that are found in one step, bits.
+/// Maximum length of a code that one look-up in `quick` decodes, bits.
 const QUICK: u32 = 9;
 
 /// A Huffman table for decoding.
 #[derive(Clone, Debug)]
 pub(super) struct Huffman {
-    /// By the next [`QUICK`] bits: the length of the code and its symbol; length 0 if the code is longer or invalid.
+    /// For each value of the next [`QUICK`] bits, the length of the code and its symbol. The length is 0 if the code is longer or invalid.
     quick: Vec<(u8, u8)>,
-    /// By length: the first code beyond all codes of that length, shifted to the left end of 16 bits.
+    /// For each code length, the number after the last code of this length, left-aligned in 16 bits.
     beyond: [u32; 17],
-    /// By length: the offset from a code to the index of its symbol.
+    /// For each code length, the difference between the index of a symbol and its code.
     offset: [i64; 17],
     symbols: Vec<u8>,
 }

@@ -18,7 +18,7 @@ pub(super) struct Tables {
 /// Header of a scan.
 #[derive(Debug)]
 pub(super) struct Scan {
-    /// By component of the scan: index in the frame, and the numbers of both Huffman tables.
+    /// For each component of the scan, its index in the frame, and the numbers of its DC and AC tables.
     components: Vec<(usize, [usize; 2])>,
     /// First and last coefficient of the band.
     band: [usize; 2],
@@ -286,14 +286,14 @@ struct Coder<'a> {
 /// State passed from block to block between restart markers.
 #[derive(Default)]
 struct State {
-    /// By component of the frame: the last DC coefficient.
+    /// Last DC coefficient of each component of the frame.
     previous: [i64; 4],
     /// Number of following blocks that the last code declared empty.
     empty_blocks: u32,
 }
 
 impl State {
-    /// The DC coefficient of a block.
+    /// Parses the DC coefficient of a block, and rejects a value out of range.
     #[inline]
     fn first(
         &mut self,
@@ -318,7 +318,7 @@ impl State {
         Ok(())
     }
 
-    /// The position of the marker that must follow.
+    /// Position of the marker that must follow the last block.
     fn finish(&self, bits: Bits<'_>) -> Result<usize, String> {
         if self.empty_blocks > 0 {
             return Err("a run of empty blocks beyond the last one".to_owned());

@@ -4,7 +4,7 @@ use super::check_whole;
 
 const END: [u8; 2] = [0xFF, 0xD9];
 
-/// Pictures drawn for the tests, by name.
+/// JPEG files in `tests/fixtures/jpeg`, by name.
 fn drawn() -> Vec<(String, Vec<u8>)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/jpeg");
     let entries = std::fs::read_dir(folder).expect("the folder").flatten();

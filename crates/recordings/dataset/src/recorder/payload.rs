@@ -19,7 +19,7 @@ use crate::signals::WrittenSignals;
 use crate::table::{FrameEntry, Row};
 use crate::toml_file::{parse_toml, toml_error};
 
-/// Facts and channels of a recording.
+/// Facts and channels of a recording, as written in the first journal record.
 #[derive(Serialize, Deserialize)]
 pub(super) struct WrittenStart {
     source: Source,
@@ -97,7 +97,7 @@ impl WrittenStart {
 /// Sample read from a journal: row, frame format, and taxel values.
 type Taken = (Row, Option<FrameInfo>, Option<Vec<f32>>);
 
-/// Sample as written; missing values are omitted.
+/// Sample as written in the journal, without missing values.
 #[derive(Serialize, Deserialize)]
 pub(super) struct WrittenSample {
     sample: String,
@@ -133,7 +133,7 @@ pub(super) struct WrittenSample {
     frame: Option<WrittenFrame>,
 }
 
-/// A press with all its samples.
+/// Press with all its samples, as written in the journal.
 #[derive(Serialize, Deserialize)]
 pub(super) struct WrittenPress {
     pub(super) press: String,
@@ -153,7 +153,7 @@ impl WrittenPress {
     }
 }
 
-/// Frames of a stream as written, with the losses up to these frames.
+/// Frames of a stream as written in the journal, and the losses of the stream until then.
 #[derive(Serialize, Deserialize)]
 pub(super) struct WrittenStream {
     pub(super) stream: StreamFacts,
@@ -175,7 +175,7 @@ impl WrittenStream {
     }
 }
 
-/// File of a frame as written.
+/// Location, digest and format of a frame, as written in the journal.
 #[derive(Serialize, Deserialize)]
 pub(super) struct WrittenFrame {
     pub(super) path: String,

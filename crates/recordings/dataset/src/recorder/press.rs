@@ -11,7 +11,7 @@ use crate::journal::RecordKind;
 use crate::table::FrameEntry;
 
 impl Recorder {
-    /// True if a press with this name is recorded.
+    /// True if a press called `press` is recorded.
     pub fn has_press(&self, press: &str) -> bool {
         self.presses.contains_key(press)
     }

@@ -65,7 +65,7 @@ fn field(column: &NamedColumn<'_>) -> Result<Type, ParquetError> {
         .build()
 }
 
-/// Writes some rows of a column.
+/// Writes the cells of a column in `rows`.
 fn write_column<W: Write + Send>(
     group: &mut SerializedRowGroupWriter<'_, W>,
     cells: &Cells<'_>,

@@ -16,7 +16,7 @@ use crate::decoder_panic::guarded;
 use crate::digest::Digest;
 use crate::error::DatasetError;
 
-/// Maximum number of cached row groups: 64 MiB.
+/// Maximum number of cached row groups, which take 64 MiB.
 const GROUPS: usize = 16;
 
 /// A verified file of signals, shared between threads.
@@ -25,7 +25,7 @@ pub struct SignalsReader {
     path: PathBuf,
     info: SignalsInfo,
     file: SerializedFileReader<File>,
-    /// First row of each group, then the number of rows.
+    /// First row of each group, then the total number of rows.
     starts: Vec<u64>,
     /// Recently used groups, the newest last, with values taxel by taxel.
     groups: Mutex<VecDeque<(usize, Arc<Vec<f32>>)>>,

@@ -175,7 +175,7 @@ pub(crate) struct WrittenSignals {
 }
 
 impl WrittenSignals {
-    /// Form for a recording that is not yet closed.
+    /// Taxels of a recording that is not yet closed, without digests.
     pub(crate) fn of(spec: &SignalsSpec) -> WrittenSignals {
         WrittenSignals {
             rows: spec.info.rows,

@@ -19,7 +19,7 @@ use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
 use crate::file::create_anew;
 
-/// Signals file during writing.
+/// Signals file that is being written.
 #[doc(hidden)]
 pub struct SignalsWriter {
     path: PathBuf,

@@ -59,7 +59,7 @@ fn links_and_folders_of_strangers_at_hidden_names_stay_as_they_are() {
     }
 }
 
-/// Folder called `set` that has the files of a dataset.
+/// Folder called `set` with a dataset header that contains `words`.
 fn dataset(folder: &Path, words: &str) -> PathBuf {
     let target = folder.join("set");
     fs::create_dir(&target).expect("made");

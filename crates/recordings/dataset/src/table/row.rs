@@ -24,7 +24,7 @@ pub struct FrameEntry {
     pub path: String,
     /// Byte range within the file at `path`; `None` for the whole file.
     pub span: Option<Span>,
-    /// Digest of the frame bytes. For a difference, digest of its bytes and of the digest of the first frame of the pack.
+    /// Digest of the frame bytes. For a difference, the digest covers its bytes and the digest of the first frame of the pack.
     pub digest: Digest,
 }
 
@@ -78,7 +78,7 @@ impl FrameEntry {
 pub struct RowFrame {
     /// Original picture, relative to the lab's folder.
     pub source_frame: Option<String>,
-    /// Mean luma, in steps of an 8-bit camera.
+    /// Mean luma of the picture, in 8-bit steps, from 0 to below 256.
     pub intensity: Option<f64>,
     /// Location of the picture.
     pub frame: Option<FrameEntry>,
@@ -110,7 +110,7 @@ pub struct Row {
     pub scene: Option<String>,
     /// Index of the depth step at this contact point.
     pub depth_step: Option<u32>,
-    /// Number of the repeat.
+    /// Index of the repeated press at this contact point.
     pub repeat: Option<u32>,
     /// Phase: load or unload.
     pub phase: Option<Phase>,
@@ -132,7 +132,7 @@ pub struct Row {
     pub kind: Option<GratingKind>,
     /// Spacing of the touched grating.
     pub spacing: Option<Nanometre>,
-    /// Mean luma of the full-size frame, in steps of an 8-bit camera.
+    /// Mean luma of the full-size frame, in 8-bit steps, from 0 to below 256.
     pub intensity: Option<f64>,
     /// One value for each channel of the table.
     pub truth: Vec<Option<f64>>,

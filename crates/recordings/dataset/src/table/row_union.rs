@@ -18,8 +18,8 @@ pub struct RowNames {
 }
 
 impl Table {
-    /// Adds row `row` of `other`, a table with the same channels in any order. An attribute or a task that only one table has is missing in the rows from the
-    /// other.
+    /// Adds row `row` of `other`, a table with the same channels in any order. An attribute, view or task that `other` lacks is empty in the new row.
+    /// An attribute, view or task that only `other` has is ignored.
     ///
     /// # Panics
     /// Panics if `other` lacks a channel, or if the row does not exist.

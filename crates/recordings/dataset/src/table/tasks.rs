@@ -108,7 +108,7 @@ impl TaskColumn {
         }
     }
 
-    /// Translation and rotation vector of each row, part by part; no numbers for labels other than poses.
+    /// Translation and rotation vector of each row, with one column for each component. Labels other than poses give no numbers.
     fn pose_columns(&self) -> Vec<Column> {
         let rows = 0..self.rows();
         let pose = |row: usize| match self.label(row)? {
@@ -151,7 +151,7 @@ fn push_each(parts: &mut [Vec<Option<f64>>], numbers: &[f64]) {
     }
 }
 
-/// Column with these cells.
+/// Column of the given cells.
 fn column(cells: impl Iterator<Item = Option<f64>>) -> Column {
     let mut column = Column::default();
     cells.for_each(|cell| column.push(cell));
@@ -173,7 +173,7 @@ impl Table {
         maps[row] = Some(entry);
     }
 
-    /// The same table, for rows with a label of each of `tasks`, which are sorted by name. The table must be empty.
+    /// The same table with a column for the labels of each of `tasks`, sorted by name. The table must be empty.
     ///
     /// # Panics
     /// Panics if the table has rows.

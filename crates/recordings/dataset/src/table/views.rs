@@ -58,7 +58,7 @@ impl ViewFrames {
         &self.frames
     }
 
-    /// Mean luma of each picture, in steps of an 8-bit camera.
+    /// Mean luma of each picture, in 8-bit steps, from 0 to below 256.
     pub fn intensity(&self) -> &[Option<f64>] {
         &self.intensity
     }

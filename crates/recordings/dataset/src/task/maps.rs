@@ -22,9 +22,9 @@ use crate::pack::Span;
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MapFacts {
-    /// Unit of a number times `scale`, such as `mm` or `um`.
+    /// Unit of the depths, such as `mm` or `um`.
     pub unit: String,
-    /// Factor of the numbers.
+    /// Factor from stored numbers to depths in `unit`.
     pub scale: f64,
     /// Distances of neighbouring columns and of neighbouring rows of pixels, mm; `None` if unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -51,7 +51,7 @@ impl MapFacts {
     /// Depth of the number `number`, mm.
     ///
     /// # Errors
-    /// The problem in words if the unit is not a length, or the scale not a finite number.
+    /// Error message if the unit is not a length, or if the scale is not a finite number.
     pub fn mm(&self, number: f64) -> Result<f64, String> {
         Ok(self.length()?.convert(number * self.scale))
     }

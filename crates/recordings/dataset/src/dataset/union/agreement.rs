@@ -15,7 +15,7 @@ pub struct Difference {
     pub other: String,
 }
 
-/// Differences that prevent joining two recordings, in the order of a header.
+/// Differences that prevent joining two recordings, in the order of their keys in the header.
 pub(super) fn differences(one: &Header, other: &Header) -> impl Iterator<Item = Difference> {
     let facts = facts(one).into_iter().zip(facts(other));
     facts
@@ -23,8 +23,7 @@ pub(super) fn differences(one: &Header, other: &Header) -> impl Iterator<Item = 
         .map(|((key, own), (_, other))| Difference { key, own, other })
 }
 
-/// Further differences that prevent adding rows to a recording. Serial number, gel, clock, text columns, tasks and the order of colours must also
-/// agree.
+/// Differences that prevent adding rows to a recording, including differences of serial number, gel, clock, text columns, tasks and order of colours.
 pub fn differences_of_added(one: &Header, added: &Header) -> impl Iterator<Item = Difference> {
     let more = more(one).into_iter().zip(more(added));
     let more = more.filter(|((_, own), (_, other))| own != other);

@@ -5,7 +5,7 @@ use crate::task::Task;
 
 /// Two recordings that define a task differently.
 pub(super) struct OtherDefinition {
-    /// Positions of both recordings.
+    /// Indices of both recordings among the joined recordings.
     pub(super) recordings: [usize; 2],
     /// Both definitions, in words.
     pub(super) problem: String,
