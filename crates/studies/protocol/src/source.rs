@@ -1,13 +1,13 @@
-//! Sources of a study as data: descriptors of its devices, or the contents of a recording. Planning opens no device.
+//! Sources of the samples of a study, as data: descriptors of devices, or the contents of a recording. Planning opens no device.
 
 use taceva_core::{Channels, Descriptor, FieldSet, Footprint, FrameInfo};
 
 /// Source of the samples of a study.
 #[derive(Clone, Debug)]
 pub enum SourceInfo {
-    /// Devices.
+    /// Devices of a rig, which record the samples.
     Rig(Box<RigInfo>),
-    /// A recording.
+    /// A recording that already has the samples.
     Recording(RecordingInfo),
 }
 
@@ -20,7 +20,7 @@ pub struct RigInfo {
     pub robot: Option<Descriptor>,
     /// The force transducer.
     pub force: Option<Descriptor>,
-    /// Light around the sensor, if it has its own driver.
+    /// Lighting around the sensor, if the lighting has its own driver.
     pub lighting: Option<Descriptor>,
 }
 
