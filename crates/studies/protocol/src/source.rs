@@ -29,12 +29,12 @@ pub struct RigInfo {
 pub struct RecordingInfo {
     /// Fields of the recording's samples. Predictions are not included, because a model computes them.
     pub fields: FieldSet,
-    /// The channels of the truth.
+    /// Channels of the measured truth.
     pub channels: Channels,
     /// True if ambient light cannot reach the camera; `None` if unknown.
     pub opaque: Option<bool>,
     /// Sensing area, if known.
     pub footprint: Option<Footprint>,
-    /// Size and format of the frames, if there are any.
+    /// Size and format of the frames; `None` if the recording has no frames.
     pub frame: Option<FrameInfo>,
 }
