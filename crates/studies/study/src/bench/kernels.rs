@@ -68,10 +68,8 @@ pub struct Floor {
     /// Always `stream sum`.
     pub name: &'static str,
     /// Wall time for each pair of values, in nanoseconds.
-    /// 1867 odd
-    /// Processor time of the thread for each pair of values, in nanoseconds; `None` if the system does not report it.
     pub ns_per_pair: Spread,
-    /// Nanoseconds for each pair of values, processor time of the thread; `None` if the system does not report it.
+    /// Processor time of the thread for each pair of values, in nanoseconds; `None` if the system does not report it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thread_ns_per_pair: Option<Spread>,
     /// Throughput of the shortest run, in GB/s.
