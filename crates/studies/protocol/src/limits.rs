@@ -47,8 +47,7 @@ pub struct RigLimits {
 /// is the difference of two poses. Every segment is at least 4·σ long, so that it is visible in the pose.
 ///
 /// - With healthy signals, the tip exceeds a limit by at most s + b + m.
-/// - A frozen force signal hides later segments, until n = [`FROZEN_READINGS`](crate::FROZEN_READINGS) equal readings halt the rig. The tip then
-///   exceeds the limit by at most n·s + b + m.
+/// - With a frozen force signal, by at most n·s + b + m. The rig is halted after n = [`FROZEN_READINGS`](crate::FROZEN_READINGS) equal readings.
 ///
 /// The overshoot in force is this length times the stiffness of the gel, plus the noise of the transducer.
 ///
@@ -208,8 +207,7 @@ struct Tighten<'a> {
 }
 
 impl Tighten<'_> {
-    /// Tightest value of the limit `key` among devices, rig file and scene; `None` if none states it. Rejects a scene or rig file that loosens a
-    /// limit.
+    /// Tightest value of the limit `key` in devices, rig file and scene; `None` if none states it. Rejects a file that loosens a limit.
     fn least(
         &self,
         key: &'static str,

@@ -1,8 +1,6 @@
-//! Plans a study in pure passes. Passes remove and merge metrics, presses, fields and models, and record the reason for each removal. No pass adds
-//! one.
+//! Plans a study in pure passes. Passes remove and merge metrics, presses, fields and models, and record each reason. They add none.
 //!
-//! `collect → resolve → applicability → phases → merge → fields → check → cost`, one file for each pass. Then `wear` puts load cycles before the
-//! presses.
+//! `collect → resolve → applicability → phases → merge → fields → check → cost`, one file for each pass. Then `wear` adds load cycles.
 
 mod applicability;
 mod check;

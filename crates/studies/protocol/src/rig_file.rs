@@ -89,8 +89,7 @@ pub struct RigRobot {
     pub origin_mm: Setting<[f64; 3]>,
     /// Axes of the robot base that correspond to the axes of the sensor.
     pub axes: Setting<SignedAxes>,
-    /// Rotation of the tool about x, y and z of the base frame while the specimen is not turned, in degrees. `None` uses the rotation when the robot
-    /// is opened.
+    /// Rotation of the tool about x, y and z of the base frame with the specimen not turned, in degrees. `None` uses that at opening of the robot.
     pub turned_deg: Option<[f64; 3]>,
     /// Delay between a pose and its stamp, in ms; `None` uses the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,

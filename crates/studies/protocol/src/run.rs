@@ -3,8 +3,7 @@
 //! A press is an approach, a search for contact, its waypoints and a retreat. In contact the tip moves in segments of 15 ms, or in longer segments if
 //! guard threads run and no limit is near. After each segment, force and pose are read and checked by the [`Supervisor`]. A limit of the gel ends the
 //! descent, and the run continues. A press is repeated if signals become stale, the zero of the force changes, or the enabling switch is released.
-//! Any other cause stops the run, and the same call resumes it. At a stop, the tip leaves the gel if force and pose are reliable and the robot
-//! reports no fault.
+//! Any other cause stops the run, and the same call resumes it. At a stop, the tip leaves the gel if force, pose and robot are reliable.
 
 mod align;
 mod bounds;

@@ -1,5 +1,4 @@
-//! Bias of a mean absolute error, if the number of contact points depends on the width of its interval. The presses are simulated, and the true error
-//! is known.
+//! Bias of a mean absolute error, if the number of contact points depends on the width of its interval. The true error is simulated.
 
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
 

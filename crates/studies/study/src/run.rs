@@ -32,8 +32,7 @@ pub struct RunSetup<'a> {
     pub jobs: NonZeroUsize,
 }
 
-/// Records the presses of `scene` in `folder`, evaluates every study, and returns the finished studies in order. Several studies run at the same
-/// time.
+/// Records and evaluates the studies of `scene` in `folder`, several at the same time, and returns the finished studies in order.
 ///
 /// Reports do not depend on `jobs`, on interruptions of the run, or on the content of a cache.
 ///

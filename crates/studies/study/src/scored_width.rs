@@ -137,8 +137,7 @@ impl ScoredWidth {
         Some(self.ratio.powf(factor) - 1.0)
     }
 
-    /// Least number of points for which the expected width is at most `width`, with `samples` samples at each point. `None` if no number up to `most`
-    /// suffices.
+    /// Least number of points with an expected width of at most `width`, with `samples` samples each. `None` if no number up to `most` suffices.
     pub fn needed(&self, width: f64, samples: f64, most: usize) -> Option<usize> {
         let reaches = |points: usize| {
             let expected = self.expected(TestedPoints { points, samples });
@@ -183,8 +182,7 @@ fn clusters(points: usize) -> usize {
     }
 }
 
-/// First number in `range` for which `holds` returns true; `None` without one. If `holds` is true for a number, it must be true for every greater
-/// number.
+/// First number in `range` for which `holds` is true; `None` without one. `holds` must then be true for every greater number.
 fn first(range: Range<usize>, holds: impl Fn(usize) -> bool) -> Option<usize> {
     let (mut least, mut found) = (range.start, range.end.checked_sub(1)?);
     if found < least || !holds(found) {

@@ -5,7 +5,7 @@ use crate::text::Setting;
 
 /// Key of the latency of a device in its table.
 pub(super) const LATENCY: &str = "latency_ms";
-/// Key of the standard uncertainty of this latency.
+/// Key of the standard uncertainty of a latency.
 pub(super) const UNCERTAINTY: &str = "latency_u_ms";
 
 /// Delay of a device relative to the robot, measured by taps.
@@ -46,8 +46,8 @@ pub struct RigLatencies {
 }
 
 impl RigLatencies {
-    /// Computes the latencies from taps. `before` has the latencies of robot, transducer and sensor in use during the taps, in ms. `force` and `sensor`
-    /// are the remaining delays relative to the robot.
+    /// Computes the latencies from taps. `before` has the latencies of robot, transducer and sensor in use during the taps. `force` and `sensor` are
+    /// the remaining delays relative to the robot.
     ///
     /// Taps measure only differences, so the latency of the robot normally stays. If another latency is below 0 by more than its error, all three
     /// increase until the least is 0.
@@ -97,8 +97,7 @@ impl Entry<'_> {
 }
 
 impl RigFile {
-    /// Returns the text of the file with `latencies` written into it. `None` if a device is missing, or if no line can be inserted after `driver` in
-    /// its table.
+    /// Text of the file with `latencies` written into it. `None` if a device is missing, or if its table takes no line after `driver`.
     pub fn with_latencies(&self, latencies: &RigLatencies) -> Option<String> {
         let (force, sensor) = (self.force.as_ref()?, self.sensor.as_ref()?);
         let entry = |key, driver, before, value_ms| Entry {

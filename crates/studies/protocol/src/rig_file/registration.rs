@@ -6,8 +6,8 @@ use super::{Carried, RigRobot, SignedAxes};
 
 /// Place and rotation of the robot base frame relative to the sensor frame.
 ///
-/// Let A be the rotation from base to sensor by `axes`, and o the `origin_mm`. Let p be the reported position of the robot, and Q the rotation of its
-/// tool since registration.
+/// A is the rotation from base to sensor by `axes`, and o the `origin_mm`. p is the reported position, and Q the rotation of the tool since
+/// registration.
 ///
 /// - If the robot carries the indenter, the tip is at A·(p − o), rotated by A·Q·Aᵀ.
 /// - If it carries the sensor, the tip rests at o in the base frame. It is at A·Qᵀ·(o − p), rotated by A·Qᵀ·Aᵀ.
@@ -108,8 +108,7 @@ fn matrix(rotation: &Rotation) -> Matrix {
     ]
 }
 
-/// Rotation angles of the matrix `turn`, each within half a turn of `near`. At y = ±90°, only a combination of x and z is defined, so x is copied
-/// from `near`.
+/// Rotation angles of the matrix `turn`, each nearest to that of `near`. At y = ±90°, x and z share an axis, so x is copied from `near`.
 fn rotation(turn: &Matrix, near: &Rotation) -> Rotation {
     let level = turn[0][0].hypot(turn[1][0]);
     let y = (-turn[2][0]).atan2(level).to_degrees();

@@ -79,8 +79,7 @@ impl Check<'_> {
 }
 
 impl RigFile {
-    /// Returns the text of the file with `weighing` written into it. `None` if the file has no transducer, or if no line can be inserted after
-    /// `driver` in its table.
+    /// Text of the file with `weighing` written into it. `None` if the file has no transducer, or if its table takes no line after `driver`.
     pub fn with_weighing(&self, weighing: &Weighing) -> Option<String> {
         let force = self.force.as_ref()?;
         let line = weighing.line();

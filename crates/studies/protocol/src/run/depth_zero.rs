@@ -34,8 +34,7 @@ pub enum ZeroUnknown {
 }
 
 impl DepthZero {
-    /// Zero of the depths of a press with its first contact at `contact_mm`. The zero is fitted to the `readings` from `window_mm` above the contact
-    /// on.
+    /// Depth zero of a press with its first contact at `contact_mm`, fitted to the `readings` from `window_mm` above the contact on.
     pub(super) fn of(readings: &[DepthForce], contact_mm: f64, window_mm: f64) -> DepthZero {
         match surface(readings, contact_mm, window_mm) {
             Ok(surface) => DepthZero {

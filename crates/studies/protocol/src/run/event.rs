@@ -35,8 +35,7 @@ pub enum Event {
         /// Height of the contact along z of the sensor frame, in mm, positive into the gel.
         height: Millimetre,
     },
-    /// A frame was lost, damaged or stamped by another clock, so another frame is captured. A frame captured too early is replaced without this
-    /// event.
+    /// A frame was lost, damaged or stamped by another clock, and is captured again. A frame captured too early causes no such event.
     FrameRetried,
     /// A frame was bit-equal to the previous frame although the force changed. Its press is aborted.
     FrameFrozen,

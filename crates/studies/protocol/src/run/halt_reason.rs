@@ -36,8 +36,7 @@ pub enum Trip {
     UnexpectedContact {
         /// Force measured out of contact.
         force_n: f64,
-        /// True if the force exceeds the threshold for motions through the air. False if it exceeds the limit of the normal force while the tip
-        /// leaves the gel.
+        /// True if the force exceeds the threshold for motions through the air. False if it exceeds the limit of a retreat.
         is_in_air: bool,
     },
     /// The force increases faster than any gel allows.
@@ -79,8 +78,7 @@ pub enum Trip {
 }
 
 impl Trip {
-    /// Limit of the gel that the tip reached while the signals were healthy; `None` for other reasons. Such a limit ends the press, and the run
-    /// continues.
+    /// Limit of the gel that the tip reached with healthy signals; `None` for other reasons. Such a limit ends the press, not the run.
     pub fn limit(self) -> Option<Limit> {
         match self {
             Trip::Depth { .. } => Some(Limit::Depth),

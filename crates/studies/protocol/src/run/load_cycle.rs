@@ -78,8 +78,7 @@ mod tests {
     use crate::run::rig::{CONTACT_MM, Rig, SEGMENT_MM, nothing, with_tip};
     use crate::scene::WearLoad;
 
-    /// Compresses a gel of `stiffness_n_mm` once to `force` µN. Returns the outcome of the press, and the greatest depth of the tip below the gel, in
-    /// mm.
+    /// Compresses a gel of `stiffness_n_mm` once to `force` µN. Returns the outcome of the press, and the greatest depth of the tip, in mm.
     fn compressed(stiffness_n_mm: f64, force: u32) -> (PressOutcome, f64) {
         let deepest_mm = Arc::new(Mutex::new(0.0_f64));
         let seen = Arc::clone(&deepest_mm);

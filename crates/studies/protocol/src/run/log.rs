@@ -18,8 +18,7 @@ pub trait PressLog {
     /// Any failure to store the press safely. The run then stops, and the press counts as not finished.
     fn append(&mut self, record: &PressRecord) -> Result<(), SinkError>;
 
-    /// Stores a frame of the untouched gel in the reference light. It precedes the first press with frames of each unit, and is repeated if this
-    /// press is repeated.
+    /// Stores a frame of the untouched gel in the reference light, before the first press with frames of each unit. A repeated press repeats it.
     ///
     /// # Errors
     /// Any failure to store the frame safely. The run then stops.

@@ -43,8 +43,7 @@ pub(super) struct OnePress {
 }
 
 impl OnePress {
-    /// Runs one press straight down to `depth` in the middle of a gel, with a plan that `change` modifies. `force` returns the force in N for the
-    /// number of the reading and the height of the tip.
+    /// Runs one press to `depth` in the middle of a gel, with a plan that `change` modifies. `force` gives the force in N by reading and height.
     pub(super) fn to(
         depth: Nanometre,
         force: impl FnMut(u32, f64) -> Option<f64> + Send + 'static,

@@ -69,8 +69,8 @@ impl ReferenceTouch {
         )
     }
 
-    /// Change of height and force since the `earlier` touch. `None` if the change is within the repeatability of arms and gels, or within the
-    /// uncertainty of both touches.
+    /// Change since the `earlier` touch. `None` if the change is within the repeatability of arms and gels, or within the uncertainty of both
+    /// touches.
     pub(super) fn changed_since(&self, earlier: &ReferenceTouch) -> Option<ChangedTouch> {
         let part = |touch: &ReferenceTouch| touch.force_u_n / touch.force_n;
         let changed = ChangedTouch {

@@ -11,7 +11,7 @@ use super::tip::{Step, Tip};
 const AIR_MM: f64 = 0.5;
 /// Greatest number of attempts to recover after a fault. Each attempt checks force and pose, then retreats.
 const RECOVERY_TRIES: u32 = 10;
-/// Rest before each attempt.
+/// Rest before each attempt to recover after a fault.
 const RECOVERY_REST: Duration = Duration::from_millis(20);
 
 impl Tip<'_> {

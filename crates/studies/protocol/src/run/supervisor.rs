@@ -195,8 +195,8 @@ impl Supervisor {
         }
     }
 
-    /// True if two readings of a resting tip show a working transducer. The values must differ, or for a transducer with coarse steps, the sequence
-    /// numbers or the times.
+    /// True if two readings of a resting tip show a working transducer: values differ, or for a transducer with coarse steps, numbers or times
+    /// differ.
     pub(super) fn is_live(&self, one: &Look, other: &Look) -> bool {
         match (one.number, other.number) {
             (Some(one), Some(other)) if one == other => false,

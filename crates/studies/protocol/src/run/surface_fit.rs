@@ -196,8 +196,7 @@ impl<'a> Centred<'a> {
         }
     }
 
-    /// Least sum of squared residuals of the force law with the gel at `height_mm` and the exponent `quarters` / 4, in N². At least that of the least
-    /// noise.
+    /// Least sum of squared residuals of the force law with the gel at `height_mm` and the exponent `quarters` / 4, in N²; not below that of noise.
     fn residual(&self, height_mm: f64, quarters: u32) -> f64 {
         let (mut sum, mut square, mut product) = (0.0, 0.0, 0.0);
         for reading in self.readings {

@@ -1,8 +1,7 @@
 //! Taps: the tip touches the gel at one place repeatedly, fast and slowly in turn, while listeners record every device.
 //!
 //! Position, force and frame change at the same moment, so the delay of a device is its latency. The force reaches half of its rise at a fixed
-//! distance from the reference height of the tip. The time over this distance decreases with speed; a latency does not. Fast and slow taps therefore
-//! separate both.
+//! distance from the reference height of the tip. The time over this distance decreases with speed; a latency does not.
 
 mod edges;
 mod heard;

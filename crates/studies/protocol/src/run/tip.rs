@@ -30,8 +30,7 @@ pub(super) const SPARE_SEGMENTS: f64 = 8.0;
 pub(super) const ANY_FORCE: MotionStage = MotionStage::Retreat {
     force_n: f64::INFINITY,
 };
-/// Force that counts as a collision in the air, in multiples of the contact threshold. The multiple is high because arms shake the object that they
-/// carry.
+/// Force that counts as a collision in the air, in multiples of the contact threshold. It is high because arms shake the objects they carry.
 const COLLISION_THRESHOLDS: f64 = 10.0;
 
 /// Result of a step of a press; the error is the cause that stops it.
@@ -66,8 +65,7 @@ pub(super) struct Tip<'a> {
     pub(super) robot_failed: bool,
     /// True while a retreat ignores cancellation.
     pub(super) ignores_cancel: bool,
-    /// Zero that the transducer has set itself: 0 if it cannot set one, `None` before. If the host zeroes the force, the transducer sets a zero only
-    /// once.
+    /// Zero that the transducer set itself: 0 if it cannot, `None` before. If the host zeroes the force, the transducer sets a zero only once.
     pub(super) box_zero: Option<Wrench>,
     /// True if the zero of the force is valid for the present load of the robot.
     pub(super) is_zero_known: bool,

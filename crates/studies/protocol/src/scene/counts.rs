@@ -188,8 +188,7 @@ table! {
 }
 
 table! {
-    /// Strokes along the gel until the indenter slides. A frame is labelled `slip` if the shear force is near the friction coefficient times the
-    /// normal force.
+    /// Strokes along the gel until the indenter slides. A frame is labelled `slip` at a shear force near friction × normal force.
     Slip {
         /// Number of strokes, each at its own place; 0 for none.
         strokes: u32 = 0,
@@ -199,8 +198,7 @@ table! {
         rate_hz: f64 = 50.0,
         /// Length of a stroke, in mm.
         length_mm: f64 = 1.0,
-        /// Depth of a stroke, in mm, at most the greatest depth. A ball slides after a path of about 1.5 times this depth times the coefficient of
-        /// friction.
+        /// Depth of a stroke, in mm, at most the greatest depth. A ball slides after about 1.5 × depth × friction.
         depth_mm: f64 = 0.4,
         /// Coefficient of friction between indenter and gel; 1 on the simulated bench.
         friction: f64 = 1.0,

@@ -54,11 +54,9 @@ pub struct ModelSpec {
     /// Settings of the estimator, by name.
     #[serde(default)]
     pub set: BTreeMap<String, toml::Value>,
-    /// Number of folds of the calibration points. Each point is then predicted by a model fitted on other points. Without folds, one model predicts
-    /// only the test part.
+    /// Number of folds of the calibration points. A model fitted on other points predicts each point. `None` predicts only a test part.
     pub folds: Option<Setting<u32>>,
-    /// Split of the calibration points, or of the samples of a recording, into parts, such as `by-point 40/10/50`. `None` splits into 70 % training,
-    /// 20 % validation and 10 % test.
+    /// Split of calibration points or of a recording, such as `by-point 40/10/50`. `None` gives 70 % training, 20 % validation, 10 % test.
     pub split: Option<Setting<String>>,
 }
 

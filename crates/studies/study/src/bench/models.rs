@@ -33,8 +33,7 @@ pub struct ModelTrial {
     pub settings: Vec<String>,
     /// Wall time of the first fit, including the computation of features, in s.
     pub fit_s: f64,
-    /// Least processor time of a fit over all rounds, including the computation of features, in s. `None` if the system does not report processor
-    /// time.
+    /// Least processor time of a fit over all rounds, with the computation of features, in s. `None` if the system does not report it.
     pub fit_cpu_s: Option<f64>,
     /// Wall time to predict the whole test part, including the computation of features, in s.
     pub predict_s: f64,

@@ -43,8 +43,7 @@ struct Folded {
 }
 
 impl Learnt {
-    /// Fits the models that the plan needs, or reads a fitted model from its file. The random draws of a model use `seed` if it is given. `None` if
-    /// no metric reads predictions, or if the scene names no model.
+    /// Fits the models that the plan needs, with `seed` if given, or reads one from its file. `None` without a metric that reads predictions.
     pub(super) fn new(
         scene: &PlannedScene,
         study: &PlannedStudy,

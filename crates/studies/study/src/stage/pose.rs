@@ -16,8 +16,7 @@ use crate::models::fit_request;
 /// Name of the task in the report.
 const POSE: &str = "pose";
 
-/// Scores of changes of pose, or the reason why there are none. `None` if the scene asks for no pairs or fits no model, or if the recording has no
-/// plan.
+/// Scores of changes of pose, or the reason why there are none. `None` if the scene asks for none or fits no model, or if there is no plan.
 pub(super) fn of(
     scene: &PlannedScene,
     study: &PlannedStudy,

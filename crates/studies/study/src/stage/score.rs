@@ -202,8 +202,7 @@ impl Scores<'_> {
         })
     }
 
-    /// Constant prediction of each channel, with which the skill metric compares the model. Contains only channels for which the model states a
-    /// constant.
+    /// Constant prediction of each channel, with which the skill metric compares the model. A channel without a stated constant is absent.
     fn constants(&self) -> BTreeMap<String, f64> {
         let predicted = self.predicted.map(|(predicted, _)| predicted);
         predicted.map_or_else(BTreeMap::new, |predicted| predicted.constants().clone())

@@ -12,8 +12,7 @@ use crate::error::StudyError;
 /// Name of the task in the report.
 const SHAPE: &str = "shape";
 
-/// Scores of contact shapes, or the reason why there are none. `None` if the scene asks for no shapes, or if there is no plan, no prediction or no
-/// footprint.
+/// Scores of contact shapes, or the reason why there are none. `None` if the scene asks for none, or without plan, predictions or footprint.
 pub(super) fn of(
     scene: &PlannedScene,
     study: &PlannedStudy,

@@ -13,8 +13,7 @@ use crate::error::StudyError;
 
 /// Name of the task in the report.
 const SLIP: &str = "slip";
-/// Least ratio of shear force to the limit of friction at which a frame is labelled slip. The limit is the friction coefficient times the normal
-/// force. The outermost part of a contact slides earlier.
+/// Least share of the limit of friction at which a frame is labelled slip. The outermost part of a contact slides earlier.
 const SHARE: f64 = 0.9;
 /// Name of the model that predicts slip from few strokes: linear discriminant analysis of small pictures.
 const MODEL: &str = "lda";
@@ -66,8 +65,7 @@ pub(super) fn of(
     TaskOutcome::of(SLIP, scores).map(Some)
 }
 
-/// Class of each row of the dataset: 1 for slip, 0 for no slip. `None` for a row that is not in `rows` or without contact. The result is `None` if
-/// the rig does not measure Fx, Fy and Fz.
+/// Class of each row of the dataset: 1 for slip, otherwise 0; `None` outside `rows` or without contact. No labels without Fx, Fy and Fz.
 fn labels(dataset: &Dataset, rows: &[usize], friction: f64) -> Option<Vec<Option<TaskLabel>>> {
     let table = dataset.table();
     let [x, y, z] = ["Fx", "Fy", "Fz"].map(|name| table.channels().position(name));

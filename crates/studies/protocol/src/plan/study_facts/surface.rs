@@ -9,8 +9,7 @@ use crate::source::RigInfo;
 use crate::text::{SceneError, SceneProblem};
 
 impl Gather<'_> {
-    /// Footprint that the scene states, otherwise the rig file, otherwise the sensor. A footprint of the scene must be within that of the rig file,
-    /// and both within that of the sensor.
+    /// Footprint that the scene states, otherwise the rig file, otherwise the sensor. Each must be within those of the later sources.
     pub(super) fn footprint(
         &self,
         stated: Option<Footprint>,

@@ -45,8 +45,7 @@ struct Distinct {
     is_left: bool,
     /// Number of later frames that are equal to it although tip or force changed.
     repeats: u32,
-    /// True if an equal frame followed in another press, or after a change between air and contact. An earlier force change of similar size must have
-    /// changed a frame.
+    /// True if an equal frame followed in another press, or across the contact, although a similar force change once changed a frame.
     is_seen_across: bool,
 }
 
@@ -58,8 +57,7 @@ impl Freeze {
         }
     }
 
-    /// True if the camera is frozen. `frame`, captured at `moment`, then equals the previous frame or repeats a sequence of older frames, although
-    /// the force changed.
+    /// True if `frame`, captured at `moment`, equals the previous frame or repeats a sequence of older frames, although the force changed.
     ///
     /// A blank frame, as from a camera in the dark, never counts as repeated.
     pub(super) fn is_frozen(&mut self, frame: &Frame, moment: Moment) -> bool {

@@ -8,8 +8,7 @@ use crate::run::way::distance;
 
 /// Least change of the force that changes the frame of any camera, in multiples of `air_n`.
 const FORCE_STEPS: f64 = 5.0;
-/// Least displacement of the tip that changes the frame of a camera without noise, in mm. A gel may creep under a resting tip without a visible
-/// change.
+/// Least displacement of the tip that changes the frame of a camera without noise, in mm. A gel may creep by less under a resting tip.
 const MOVED_MM: f64 = 0.05;
 
 /// State of the tip when a frame is captured.

@@ -44,8 +44,7 @@ impl Sensor for Stream {
     }
 }
 
-/// Captures a frame at 5 s while the tip rests since 4.5 s, from a camera with the capture `times`. Returns the number of retries and the capture
-/// time.
+/// Captures a frame of a tip that rests since 4.5 s, from a camera with the capture `times`. Returns the number of retries and the capture time.
 fn taken(times: &[f64]) -> (u32, Result<f64, StopCause>) {
     taken_by(&mut Album(times.to_vec()))
 }

@@ -84,8 +84,7 @@ impl Seen {
         self.in_contact > (CHANGES * self.in_air).max(LEAST[self.place])
     }
 
-    /// Greatest brightness change that remains after the tip has left. `None` if it is below the mean of the changes in contact and in the air. Gels
-    /// recover slowly and never fully.
+    /// Greatest brightness change that remains after contact, if it exceeds the mean of those in contact and in the air. Gels recover slowly.
     pub(super) fn stays(&self, after: &Change) -> Option<f64> {
         let after = after.0[self.place];
         (2.0 * after > self.in_contact + self.in_air).then_some(after)

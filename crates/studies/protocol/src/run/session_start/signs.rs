@@ -102,8 +102,7 @@ mod tests {
 
     const TRUE: [&str; 3] = ["x", "-y", "-z"];
 
-    /// Forces of a gentle touch, with the axes `written` in the rig file and a transducer mounted as [`TRUE`]. Noise hides the push with index
-    /// `hidden`.
+    /// Forces of a gentle touch, with the axes `written` in the rig file and those of [`TRUE`] in fact. Noise hides the push along axis `hidden`.
     fn felt(written: SignedAxes, hidden: Option<usize>) -> Felt {
         let mounted = SignedAxes::read(TRUE).expect("axes");
         let felt = |force: [f64; 3]| written.to_sensor(mounted.to_device(force));

@@ -319,8 +319,7 @@ impl Tip<'_> {
     }
 }
 
-/// Standard uncertainty of a contact height that is interpolated over a step of `step_mm`, in mm. `noise_n` is the noise of a reading, `rise_n` the
-/// rise of the force over the step, both in N.
+/// Standard uncertainty of a height interpolated over a step, in mm. `noise_n` is the noise of a reading, `rise_n` the rise of the force in the step.
 fn between_steps_mm(step_mm: f64, noise_n: f64, rise_n: f64) -> f64 {
     // The line between two steps deviates from the curve of a gel by up to an eighth of a step.
     let of_line_mm = step_mm / 8.0 / 3.0_f64.sqrt();

@@ -66,8 +66,7 @@ fn at_height(z: f64) -> Pose {
 
 const PRESS: MotionStage = MotionStage::Press { height_mm: 0.2 };
 
-/// Reason for which one observation at 10.02 s in `stage` halts the robot; `None` if it does not. Checks that the robot is halted in the first case
-/// only.
+/// Reason for which one observation at 10.02 s in `stage` halts the robot; `None` without a halt. Checks that the halt was sent.
 fn trip(stage: MotionStage, observation: &Observation) -> Option<Trip> {
     let (mut supervisor, halts) = watching(stage);
     let tripped = supervisor.observe(observation, 10.02).err();

@@ -11,8 +11,7 @@ const SEEDS: u32 = 200;
 
 /// Readings of a search for a gel at height 0, and the height of the first contact.
 ///
-/// A search reads at the end of each segment, and once more at the end of each step. The heights of the steps relative to the gel are random, as over
-/// a tilted gel.
+/// A search reads at the end of each segment, and once more at the end of each step. The search begins at a random height, as over a tilted gel.
 fn search(seed: u32, noise_n: f64, law: fn(f64) -> f64) -> (Vec<DepthForce>, f64) {
     let mut draws = Draws::new(u64::from(seed));
     // Error of the zero of the force: a mean of sixteen readings.

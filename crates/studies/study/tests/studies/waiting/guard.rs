@@ -14,8 +14,7 @@ use taceva_study::StudyError;
 use crate::waiting::record;
 use crate::waiting::world::World;
 
-/// Progress receiver that calls its function with the emulated rig whenever a run checks for cancellation, a hundred times a second. It returns the
-/// wishes of this function.
+/// Progress receiver that calls its function with the emulated rig whenever a run checks for cancellation, a hundred times a second.
 struct Looking<'a, F>(&'a World, F);
 
 #[derive(Clone, Copy, Default)]

@@ -58,8 +58,7 @@ const LOOKS: u32 = 40;
 /// Number of checks of the guard within which a motion in progress must be halted.
 const HALTED_LOOKS: u32 = 20;
 
-/// Progress receiver that releases the switch when the tip is deep in the gel, and holds it again after [`LOOKS`] checks. It counts the checks at
-/// which the tip has moved in between.
+/// Progress receiver that releases the switch when the tip is deep in the gel, and holds it again after [`LOOKS`] checks. Counts moves meanwhile.
 struct LetsGo<'a> {
     world: &'a World,
     looks: AtomicU32,

@@ -235,8 +235,7 @@ fn silence_counts_from_when_the_last_force_was_true_and_from_the_watch_before_on
     assert_eq!(supervisor.observe(&silence, 1.049), Ok(()));
 }
 
-/// Reason for which the second of two normal forces, in N, halts the robot; `None` without a halt. The first force is at `start_s`, the second
-/// `span_s` later, in s.
+/// Reason for which the second of two normal forces in N halts the robot, if any. The first is at `start_s`, the second `span_s` later.
 fn stepped(start_s: f64, forces_n: [f64; 2], span_s: f64) -> Option<Trip> {
     let mut supervisor = Supervisor::new(wide(), Arc::new(Halts::default()));
     supervisor.watch(TOUCHING, start_s);
