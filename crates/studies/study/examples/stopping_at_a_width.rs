@@ -25,7 +25,7 @@ const PRESSES: usize = 4;
 const RUNS: u32 = 1000;
 /// Mean over contact points of the standard deviation of errors, in N.
 const DEVIATION_N: f64 = 0.1;
-/// Share of the mean by which the deviation of a point differs at most from it. The deviations are distributed uniformly.
+/// Greatest difference of a point's deviation from the mean, as a share of the mean. Deviations are uniformly distributed.
 const SPREAD: f64 = 0.9;
 
 /// Rule by which a study chooses its number of contact points.

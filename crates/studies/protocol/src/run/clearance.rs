@@ -17,7 +17,7 @@ const REPEATED_MM: f64 = 0.1;
 
 /// Raises the tip straight to the travel height if it is lower. Halts the robot there, out of reach of hands. Returns true if the tip moved.
 ///
-/// If `robot` has a name, the operator must enable the robot of this name before it moves. A robot whose tip is high enough is only halted.
+/// If `robot` is given, the operator must enable the robot of this name before it moves. A robot whose tip is high enough is only halted.
 /// `supervisor` watches `arm` and receives every force reading, as under [`run_guarded`](super::run_guarded). With an enabling switch, nothing moves
 /// until the switch is held, for up to `patience_s`.
 ///

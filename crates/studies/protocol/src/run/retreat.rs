@@ -60,7 +60,7 @@ impl Tip<'_> {
         Ok(())
     }
 
-    /// Ends a halt. From now on, the supervisor checks that the normal force does not exceed its value at this moment.
+    /// Ends a halt. The supervisor then allows the present normal force, or its limit if that is greater.
     fn turn_back(&mut self) -> Step<()> {
         self.release()?;
         self.find_pose()?;

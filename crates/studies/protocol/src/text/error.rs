@@ -124,11 +124,11 @@ pub enum SceneProblem {
         frame.height
     )]
     FramesEnlarged {
-        /// Size and format of the sensor's frames.
+        /// Value as written.
         found: FrameSize,
         /// Name of the study.
         study: String,
-        /// Frames of the sensor of the study.
+        /// Size and format of the frames of the study's sensor.
         frame: FrameInfo,
     },
     /// Stored frames would have fewer pixels than the grid of a model.

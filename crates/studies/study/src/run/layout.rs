@@ -1,6 +1,6 @@
 //! File names in the folder of a run.
 
-/// Copy of the scene as the user wrote it, in the run folder.
+/// Name of the file with a copy of the scene as the user wrote it.
 pub(super) const SCENE: &str = "scene.toml";
 /// Name of the folder of the reports.
 pub(super) const REPORTS: &str = "reports";

@@ -43,7 +43,7 @@ struct Distinct {
     moment: Moment,
     /// True if the tip has left the gel since the frame was captured.
     is_left: bool,
-    /// Number of later frames that are equal to it although tip or force changed.
+    /// Number of later frames that are equal to this frame, although tip or force changed.
     repeats: u32,
     /// True if an equal frame followed in another press, or across the contact, although a similar force change once changed a frame.
     is_seen_across: bool,
