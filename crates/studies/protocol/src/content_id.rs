@@ -40,12 +40,12 @@ impl serde::Serialize for ContentId {
     }
 }
 
-/// Hash in progress. Every part has a length prefix or a fixed width, so different contents give different bytes.
+/// Hash in progress. Every value gets a length prefix or a fixed width, so different contents give different bytes.
 #[derive(Clone, Debug)]
 pub(crate) struct Hasher(u128);
 
 impl Hasher {
-    /// Starts a hash of the kind `schema`; each version of a kind has its own schema.
+    /// Starts a hash of data with the schema `schema`, a name with a version.
     pub(crate) fn new(schema: &str) -> Hasher {
         Hasher(0x6c62_272e_07bb_0142_62b8_2175_6295_c58d).text(schema)
     }

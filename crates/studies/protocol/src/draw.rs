@@ -20,7 +20,7 @@ impl Draws {
         }
     }
 
-    /// 64 random bits for the counters `place`.
+    /// 64 random bits for the two counters `place`.
     pub(crate) fn bits(self, place: [u64; 2]) -> u64 {
         mix(mix(self.key ^ place[0].wrapping_mul(STEP)) ^ place[1].wrapping_mul(STEP))
     }
@@ -32,7 +32,7 @@ impl Draws {
         least + i64::try_from(up).expect("at most the difference of two lengths, which fits an i64")
     }
 
-    /// Uniformly random place in `footprint`.
+    /// Uniformly random place in `footprint`, for point number `point`.
     pub(crate) fn place(self, footprint: &Footprint, point: u64) -> [Nanometre; 2] {
         let [half_x, half_y] = footprint.half_extent();
         let candidate = |attempt: u64| {

@@ -20,7 +20,7 @@ pub struct FootprintSpec {
     pub half_y_mm: Option<f64>,
 }
 
-/// An outline.
+/// Kinds of outline of a sensing surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Shape {

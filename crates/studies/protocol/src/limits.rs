@@ -39,17 +39,15 @@ pub struct RigLimits {
 
 /// Travel of the tip after it passes a limit.
 ///
-/// A tip moves at v, and brakes with the deceleration a. Force is read every t_sample, sent in t_link and answered in t_react. Without segments, the
-/// tip travels on by v·(t_sample + t_link + t_react) + v²/2a. Therefore the tip moves in segments of length s = v·15 ms. After each segment it rests
-/// until force and pose are stamped later than the stop, so latency adds no travel. A link may delay a force until it counts as stale; the tip does
-/// not move meanwhile.
+/// The tip moves at speed v, and brakes with deceleration a. Force is read every t_sample, sent in t_link and answered in t_react. An unsegmented
+/// motion continues for v·(t_sample + t_link + t_react) + v²/2a. Therefore the tip moves in segments of length s = v·15 ms. After each segment it
+/// rests until force and pose are stamped later than the stop, so latency adds no travel. The tip does not move while the link delays a force.
 ///
-/// - With healthy signals, a limit is exceeded by at most s + b + m.
-/// - A frozen force signal hides later segments, until [`FROZEN_READINGS`](crate::FROZEN_READINGS) = n equal readings halt the rig. The excess is then at most
-///   n·s + b + m.
+/// The braking distance b is v·t for a robot that states a stop time t, otherwise v²/2a. The margin m = 3·√2·σ covers the pose noise σ, because depth
+/// is the difference of two poses. Every segment is at least 4·σ long, so that it is visible in the pose.
 ///
-/// b is the braking distance: v·t for a robot that states a stop time t, else v²/2a. m = 3·√2·σ is the margin for the pose noise σ, because depth is
-/// the difference of two poses. Every segment is at least 4·σ long, so that it is visible in the pose.
+/// - With healthy signals, the tip exceeds a limit by at most s + b + m.
+/// - With a frozen force signal, by at most n·s + b + m. The rig is halted after n = [`FROZEN_READINGS`](crate::FROZEN_READINGS) equal readings.
 ///
 /// The overshoot in force is this length times the stiffness of the gel, plus the noise of the transducer.
 ///
@@ -57,7 +55,7 @@ pub struct RigLimits {
 /// mm.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Overshoot {
-    /// Length of a segment, mm.
+    /// Length of a segment of a motion in contact, mm.
     pub segment_mm: f64,
     /// Overshoot with healthy signals: one segment, the braking distance and the margin for pose noise.
     pub healthy_mm: f64,
@@ -71,7 +69,7 @@ pub const SEGMENT_S: f64 = 0.015;
 pub const FROZEN_READINGS: u32 = 8;
 /// Deceleration assumed for a robot that states no deceleration, in mm/s². At 1 m/s², an arm stops from 5 mm/s within 0.0125 mm.
 const DECELERATION_MM_S2: f64 = 1_000.0;
-/// Least length of a segment, in standard deviations of the reported pose.
+/// Least length of a segment of motion, in standard deviations of the reported pose.
 const SEGMENT_NOISES: f64 = 4.0;
 /// Margin for pose noise, in standard deviations. Fewer than 3 in 1,000 normally distributed values exceed it.
 const NOISE_SPREAD: f64 = 3.0;
@@ -94,7 +92,7 @@ impl Overshoot {
     }
 }
 
-/// Margin of a depth for pose noise, in mm. A depth is the difference of two poses.
+/// Margin for pose noise in a depth, in mm. A depth is the difference of two poses.
 fn margin_mm(pose_noise_mm: f64) -> f64 {
     NOISE_SPREAD * std::f64::consts::SQRT_2 * pose_noise_mm
 }
@@ -209,7 +207,7 @@ struct Tighten<'a> {
 }
 
 impl Tighten<'_> {
-    /// Tightest limit of devices, rig file and scene; `None` without a limit. Rejects a scene or rig file that loosens a limit.
+    /// Tightest value of the limit `key` in devices, rig file and scene; `None` if none states it. Rejects a file that loosens a limit.
     fn least(
         &self,
         key: &'static str,
@@ -265,7 +263,7 @@ impl Tighten<'_> {
     }
 }
 
-/// The limit `written`, otherwise `tightest`; `None` without both.
+/// The limit `written`, otherwise `tightest`; `None` if both are absent.
 ///
 /// # Errors
 /// `LimitLoosened` if `written` exceeds `tightest`.

@@ -99,7 +99,7 @@ impl PhaseInputs<'_> {
         }
     }
 
-    /// Load cycles before the measured presses of `stage`, in order.
+    /// Load cycles that wear the gel before the measured presses of `stage`, in order.
     pub(crate) fn loads(&self, stage: &WearStage) -> Vec<Press> {
         let spec = self.protocol.wear.as_ref();
         let load = spec.and_then(|spec| Some((spec, WearLoad::from_name(&spec.load.value)?)));
@@ -159,7 +159,7 @@ impl PhaseInputs<'_> {
     }
 }
 
-/// One of the depths of a point: depth number `index` of `parts`.
+/// Depth number `index` of the `parts` depths of a point.
 #[derive(Clone, Copy, Debug)]
 struct DepthPart {
     point: u64,
@@ -167,7 +167,7 @@ struct DepthPart {
     parts: u32,
 }
 
-/// First counters for the random draws of depths and shears at a point. The draws of its place use lower counters.
+/// First counter for the random draws of depths at a point. The draws of the point's place use lower counters.
 const DEPTH_AXIS: u64 = 1 << 32;
 const SHEAR_AXIS: u64 = 1 << 40;
 

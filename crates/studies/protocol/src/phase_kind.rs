@@ -15,7 +15,7 @@ pub enum PhaseKind {
     Spatial,
     /// Held-out presses, repeated in every light scene.
     LightSweep,
-    /// Points pressed repeatedly.
+    /// Points pressed repeatedly, for the spread of equal presses.
     Repeatability,
     /// Presses recorded while loading and unloading.
     LoadUnload,

@@ -1,6 +1,6 @@
-//! Plans a study in pure passes. Passes remove and merge parts, never add any, and record the reason for each removal.
+//! Plans a study in pure passes. Passes remove and merge metrics, presses, fields and models, and record each reason. They add none.
 //!
-//! `collect → resolve → applicability → phases → merge → fields → check → cost`, one file for each pass. `wear` puts loads before the presses.
+//! `collect → resolve → applicability → phases → merge → fields → check → cost`, one file for each pass. Then `wear` adds load cycles.
 
 mod applicability;
 mod check;
@@ -53,7 +53,7 @@ pub struct Plan {
     pub fits: Vec<Fit>,
     /// Fields of samples that a metric reads.
     pub fields: FieldSet,
-    /// Channels of the truth.
+    /// Channels of the measured truth.
     pub channels: Vec<String>,
     /// Units to measure, in the order of measurement.
     pub units: Vec<String>,
@@ -147,7 +147,7 @@ impl Plan {
             .with_frame_size(self.frame.map(|frame| [frame.width, frame.height]))
     }
 
-    /// True if a metric or the shape of a contact reads depths.
+    /// True if a metric or the score of contact shapes reads depths.
     pub(crate) fn reads_depth(&self) -> bool {
         let reads = |metric: &PlannedMetric| metric.channels.iter().any(|name| name == "Pz");
         self.metrics.iter().any(reads) || self.phases.contains(&PhaseKind::Shape)
@@ -183,7 +183,7 @@ pub fn plan(
     Ok(plans)
 }
 
-/// Plans one study for metrics with these `needs`.
+/// Plans one study for the metrics whose `needs` are given.
 pub(crate) fn plan_study(
     scene: &Scene,
     study: &Study,
@@ -228,7 +228,7 @@ pub(crate) fn plan_study(
     })
 }
 
-/// All passes, in order.
+/// Runs all passes in order.
 fn refine(collected: Collected, facts: &StudyFacts<'_>) -> Result<Collected, SceneProblem> {
     let collected = resolve::pass(collected, facts);
     let collected = applicability::pass(collected, facts);

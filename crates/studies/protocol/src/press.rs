@@ -18,7 +18,7 @@ pub struct Press {
     pub place: [Nanometre; 2],
     /// Rotation of the specimen about z, in thousandths of a degree.
     pub turn_millidegrees: i32,
-    /// Number of the trial; `None` unless presses are repeated.
+    /// Number of the repetition of this press; `None` unless presses are repeated.
     pub repeat: Option<u32>,
     /// Motion at this place.
     pub motion: Motion,
@@ -51,7 +51,7 @@ pub enum Motion {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LoadCycle {
-    /// Load.
+    /// Kind of load.
     pub load: WearLoad,
     /// Normal force at which the descent ends, in µN.
     pub force: u32,
@@ -65,7 +65,7 @@ impl LoadCycle {
         f64::from(self.force) / 1e6
     }
 
-    /// Offsets from the place of the press that the tip visits under load, in order.
+    /// Offsets that the loaded tip visits in order, relative to the place of the press.
     pub(crate) fn offsets(&self) -> Vec<[Nanometre; 2]> {
         let to = |x: i64| [Nanometre(x), Nanometre(0)];
         match self.load {
@@ -76,14 +76,14 @@ impl LoadCycle {
     }
 }
 
-/// Position at which the tip rests for a sample. It is relative to the zero of the press.
+/// Position at which the tip rests for a sample, relative to the place of the press and its depth zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Waypoint {
-    /// Depth below the zero of the press.
+    /// Depth below the depth zero of the press.
     pub depth: Nanometre,
     /// Offset along x and y from the place of the press.
     pub shear: [Nanometre; 2],
-    /// Loading or unloading phase.
+    /// Loading or unloading branch of the press.
     pub phase: Phase,
 }
 

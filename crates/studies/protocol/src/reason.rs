@@ -1,4 +1,4 @@
-//! Reasons why a plan skips or merges parts.
+//! Reasons why a plan skips or merges metrics, presses, models, fields and channels.
 
 use std::fmt;
 
@@ -10,16 +10,16 @@ use crate::phase_kind::PhaseKind;
 const FOOTPRINT_LINE: &str = "`footprint = { shape = \"disc\", radius_mm = … }` or \
      `footprint = { shape = \"rect\", half_x_mm = …, half_y_mm = … }`";
 
-/// A skipped part of a plan, with its reason.
+/// Skipped item of a plan, with its reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlanSkip {
-    /// Skipped part.
+    /// Skipped item.
     pub subject: Subject,
-    /// Reason why the part is skipped.
+    /// Reason why the item is skipped.
     pub reason: PlanReason,
 }
 
-/// Parts that a plan can skip.
+/// Items of a plan that can be skipped.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Subject {
     /// A metric by its id, or some of its channels: `repeatability (Fx, Fy)`.
@@ -59,7 +59,7 @@ impl fmt::Display for Subject {
     }
 }
 
-/// Reasons why a plan skips a part.
+/// Reasons why a plan skips an item.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PlanReason {
@@ -81,7 +81,7 @@ pub enum PlanReason {
     },
     /// The gel has no markers, so shear leaves no repeatable trace.
     NoMarkers,
-    /// No planned metric needs the part.
+    /// No planned metric needs the item.
     NoMetricNeeds,
     /// Presses are shared with another phase, and are made only once.
     VisitedBy {
@@ -92,7 +92,7 @@ pub enum PlanReason {
     },
 }
 
-/// Missing source of a field or channel.
+/// Missing device or model that would supply a field or a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Cause {
@@ -213,7 +213,7 @@ mod tests {
 
     use super::*;
 
-    /// Index of a kind of reason. A new kind without an index does not compile.
+    /// Index of the kind of `reason`. A new kind without an index does not compile.
     fn place(reason: &PlanReason) -> usize {
         match reason {
             PlanReason::Skip(_) => 0,
@@ -252,7 +252,7 @@ mod tests {
         }
     }
 
-    /// Another crate declares these reasons as a non-exhaustive enum, so no match can cover them. The test parses the source of that crate.
+    /// Skip reasons are a non-exhaustive enum of another crate, so no match can cover them. The test parses the source of that crate.
     #[test]
     fn every_reason_that_a_stream_may_have_is_among_all() {
         let source = concat!(

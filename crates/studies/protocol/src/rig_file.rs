@@ -33,11 +33,11 @@ use crate::content_id::ContentId;
 use crate::limit_spec::LimitSpec;
 use crate::text::{SceneError, SceneProblem, Setting, Text};
 
-/// Greatest coordinate of an origin, in mm.
+/// Greatest coordinate of `origin_mm`, in mm.
 const GREATEST_PLACE_MM: f64 = 10_000.0;
 /// Greatest accepted latency, in ms.
 const GREATEST_LATENCY_MS: f64 = 1_000.0;
-/// Greatest accepted limit, as in a scene, in mm, N or mm/s.
+/// Greatest accepted limit, in the unit of the limit: mm, N or mm/s. Scenes have the same bound.
 const GREATEST_LIMIT: f64 = 1_000.0;
 
 /// Rig for scenes, parsed from TOML.
@@ -81,15 +81,15 @@ pub struct RigFile {
 /// A robot and its mounting relative to the sensor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigRobot {
-    /// Selector of the driver.
+    /// Text that selects the driver, such as `ufactory/xarm:host=192.168.1.200`.
     pub driver: Setting<String>,
     /// Body that the robot moves.
     pub carries: Carried,
-    /// Position of the tip at the middle of the untouched gel, in the base frame, in mm.
+    /// Position of the tip when it touches the middle of the untouched gel, in the base frame of the robot, in mm.
     pub origin_mm: Setting<[f64; 3]>,
     /// Axes of the robot base that correspond to the axes of the sensor.
     pub axes: Setting<SignedAxes>,
-    /// Rotation of the tool in the base frame for an unrotated tip: about x, y and z, in degrees. `None` uses the rotation at opening.
+    /// Rotation of the tool about x, y and z of the base frame with the specimen not turned, in degrees. `None` uses that at opening of the robot.
     pub turned_deg: Option<[f64; 3]>,
     /// Delay between a pose and its stamp, in ms; `None` uses the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
@@ -110,7 +110,7 @@ pub enum Carried {
 /// A force transducer and its mounting relative to the sensor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigForce {
-    /// Selector of the driver.
+    /// Text that selects the driver of the transducer.
     pub driver: Setting<String>,
     /// Axes of the transducer that correspond to the axes of the sensor. A positive Fz presses into the gel.
     pub axes: Setting<SignedAxes>,
@@ -118,7 +118,7 @@ pub struct RigForce {
     pub latency_ms: Option<Setting<f64>>,
     /// Standard uncertainty of `latency_ms`, in ms, measured by taps; `None` if unknown.
     pub latency_u_ms: Option<Setting<f64>>,
-    /// Greatest change of a component of the zero during a press, in N. `None` for 5 times the least force that counts as contact.
+    /// Greatest change of the zero force during a press, along any axis, in N. `None` for 5 times the least force that counts as contact.
     pub zero_step_max_n: Option<f64>,
     /// Last comparison with a known weight, if any.
     pub weighing: Option<Setting<Weighing>>,
@@ -220,7 +220,7 @@ impl RigFile {
         ContentId::of_text(self.text.whole())
     }
 
-    /// Maximum wait for the enabling switch to be held, in s; 0 without a switch.
+    /// Time to wait for a person to hold the enabling switch, in s; 0 without a switch.
     pub fn patience_s(&self) -> f64 {
         let operator = self.operator.as_ref();
         operator.map_or(0.0, |operator| operator.patience_s)

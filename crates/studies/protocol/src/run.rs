@@ -2,8 +2,8 @@
 //!
 //! A press is an approach, a search for contact, its waypoints and a retreat. In contact the tip moves in segments of 15 ms, or in longer segments if
 //! guard threads run and no limit is near. After each segment, force and pose are read and checked by the [`Supervisor`]. A limit of the gel ends the
-//! descent, and the run continues. A press interrupted by stale signals, or during which the zero of the force changed, is repeated. Any other cause
-//! stops the run, and the same call resumes it. At a stop, the tip leaves the gel if force and pose are reliable and the robot reports no fault.
+//! descent, and the run continues. A press is repeated if signals become stale, the zero of the force changes, or the enabling switch is released.
+//! Any other cause stops the run, and the same call resumes it. At a stop, the tip leaves the gel if force, pose and robot are reliable.
 
 mod align;
 mod bounds;
@@ -77,7 +77,7 @@ use session::Run;
 pub struct RunSpec<'a> {
     /// Plan to execute.
     pub plan: &'a Plan,
-    /// Unit on the rig. Presses of other units need another run.
+    /// Unit of the sensor that is on the rig. Presses of other units need another run.
     pub unit: &'a str,
     /// Acquisition or rehearsal.
     pub mode: Mode,
@@ -88,9 +88,9 @@ pub struct RunSpec<'a> {
 pub enum Mode {
     /// Makes and records presses.
     Acquire,
-    /// Visits every place at a height above the travel height, with the same loop and supervisor. Nothing is recorded.
+    /// Visits every place in the air above the travel height, with the loop and the supervisor of an acquisition. Nothing is recorded.
     Rehearse {
-        /// Height that is added to the clearance.
+        /// Height above the clearance at which places are visited.
         height: Millimetre,
     },
 }
@@ -103,26 +103,26 @@ pub struct Controls<'a> {
     pub cancel: &'a Cancel,
     /// Callback for events.
     pub events: &'a mut dyn FnMut(&Event),
-    /// Operator for manual steps. Without an operator, a plan that needs such a step stops at the step.
+    /// Operator for manual steps. Without an operator, a run stops at the first such step.
     pub operator: Option<&'a mut dyn Operator>,
 }
 
-/// Counts of a run.
+/// Numbers of presses and samples of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RunReport {
     /// Number of presses of this unit that earlier runs finished.
     pub resumed: usize,
     /// Number of presses that this run recorded. In a rehearsal, number of visited places.
     pub made: usize,
-    /// Number of repetitions of presses that stale signals or a released enabling switch interrupted.
+    /// Number of repetitions of presses, after stale signals, a changed zero of the force or a released enabling switch.
     pub redone: u32,
     /// Number of presses of this run that a limit of the gel ended.
     pub limited: usize,
-    /// Number of presses of this run without contact.
+    /// Number of presses of this run that found no contact.
     pub without_contact: usize,
     /// Number of samples recorded in this run.
     pub samples: usize,
-    /// Number of presses left for another run, because the operator skipped a step that they need.
+    /// Number of presses that are left for another run, because the operator skipped a step before them.
     pub skipped: usize,
 }
 
@@ -141,10 +141,10 @@ pub fn run<'a>(
     run_under(spec, devices, log, controls, None)
 }
 
-/// Makes the presses of `spec` under `guard`. The threads of the guard pass readings to the supervisor.
+/// Makes the presses of `spec` while the threads of `guard` read the devices and pass the readings to the supervisor.
 ///
-/// # Errors
-/// Errors of [`run`]. A session also fails with [`StopCause::Rig`], [`StopCause::SlowGuard`] or [`StopCause::Touch`] before its first press.
+/// # Errors Errors of [`run`]. A session on a real rig also fails with [`StopCause::Rig`], [`StopCause::SlowGuard`] or [`StopCause::Touch`] before
+/// its first press.
 pub fn run_guarded<'a>(
     spec: &RunSpec<'a>,
     devices: Devices<'a>,

@@ -1,4 +1,4 @@
-//! Scene in TOML: the sensors, their rigs, and the measurements.
+//! Scene in TOML: the sensors, their rigs, and the measurements to make.
 
 mod boards;
 mod builtin;
@@ -38,7 +38,7 @@ use taceva_core::DriverKind;
 use crate::rig_file::RigFile;
 use crate::text::{SceneError, SceneProblem, Setting, Text};
 
-/// Origin of the device names.
+/// File that names the devices of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum NamedBy {
     /// The scene.
@@ -70,17 +70,17 @@ pub struct Scene {
     pub seed: u64,
     /// Sensors, each with its rig; never empty.
     pub studies: Vec<Study>,
-    /// Metrics and their settings.
+    /// Metrics to compute, and their settings.
     pub metrics: MetricsSpec,
     /// Path of the rig file, relative to the scene, if the scene names a rig file.
     pub rig: Option<Setting<String>>,
-    /// Counts of presses by phase.
+    /// Settings of each phase of the protocol, such as counts of presses.
     pub protocol: Protocol,
     /// Formats and files of the report.
     pub report: ReportSpec,
-    /// Faults of the pictures; `None` if the run tests none.
+    /// Faults that the run adds to pictures, to test the model; `None` if the run tests none.
     pub stress: Option<StressSpec>,
-    /// Faults of pictures that plugins make.
+    /// Additional faults of pictures, which plugins make.
     pub faults: Vec<PluginFaultSpec>,
     pub(crate) text: Text,
 }
@@ -98,18 +98,12 @@ impl Scene {
         check::checked(Text::new(source_name, text)?, NamedBy::Scene)
     }
 
-    /// Parses a scene that a rig file completes. The scene need not name devices.
-    ///
-    /// # Errors
-    /// Errors of [`parse`](Scene::parse).
+    /// Parses a scene whose devices a rig file names. The scene itself may name no devices.
     pub fn parse_for_rig(source_name: &str, text: &str) -> Result<Scene, SceneError> {
         check::checked(Text::new(source_name, text)?, NamedBy::Rig)
     }
 
-    /// In every study that presses, replaces the devices by the devices of `rig`.
-    ///
-    /// # Errors
-    /// [`SceneError`] of the rig file, if the file has no sensor.
+    /// Replaces the devices of every study by those of `rig`, except in studies of a recording.
     pub fn put_on(&mut self, rig: &Arc<RigFile>) -> Result<(), SceneError> {
         let pressed = |study: &&mut Study| study.sensor.dataset.is_none();
         for study in self.studies.iter_mut().filter(pressed) {
@@ -131,7 +125,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Drivers named by the scene, study by study.
+    /// Drivers that the scene and its rig file name, study by study.
     pub fn drivers(&self) -> impl Iterator<Item = (DriverKind, &Setting<String>)> {
         self.studies.iter().flat_map(Study::drivers)
     }

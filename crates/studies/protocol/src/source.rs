@@ -1,13 +1,13 @@
-//! Sources of a study as data: descriptors of its devices, or the contents of a recording. Planning opens no device.
+//! Sources of the samples of a study, as data: descriptors of devices, or the contents of a recording. Planning opens no device.
 
 use taceva_core::{Channels, Descriptor, FieldSet, Footprint, FrameInfo};
 
 /// Source of the samples of a study.
 #[derive(Clone, Debug)]
 pub enum SourceInfo {
-    /// Devices.
+    /// Devices of a rig, which record the samples.
     Rig(Box<RigInfo>),
-    /// A recording.
+    /// A recording that already has the samples.
     Recording(RecordingInfo),
 }
 
@@ -20,7 +20,7 @@ pub struct RigInfo {
     pub robot: Option<Descriptor>,
     /// The force transducer.
     pub force: Option<Descriptor>,
-    /// Light around the sensor, if it has its own driver.
+    /// Lighting around the sensor, if the lighting has its own driver.
     pub lighting: Option<Descriptor>,
 }
 
@@ -29,12 +29,12 @@ pub struct RigInfo {
 pub struct RecordingInfo {
     /// Fields of the recording's samples. Predictions are not included, because a model computes them.
     pub fields: FieldSet,
-    /// The channels of the truth.
+    /// Channels of the measured truth.
     pub channels: Channels,
     /// True if ambient light cannot reach the camera; `None` if unknown.
     pub opaque: Option<bool>,
     /// Sensing area, if known.
     pub footprint: Option<Footprint>,
-    /// Size and format of the frames, if there are any.
+    /// Size and format of the frames; `None` if the recording has no frames.
     pub frame: Option<FrameInfo>,
 }

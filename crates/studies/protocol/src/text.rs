@@ -62,7 +62,7 @@ impl Text {
         }
     }
 
-    /// Error for a name that is not in `known`.
+    /// Error for `name`, which is not in `known`, with the most similar known name. `what` is the kind of the item.
     pub(crate) fn unknown_name(
         &self,
         at: Option<usize>,
@@ -79,7 +79,7 @@ impl Text {
         self.error(at, problem)
     }
 
-    /// Name of the text with the line of the byte offset `at`.
+    /// Name of the text, with the number of the line at the byte offset `at`.
     pub(crate) fn place(&self, at: Option<usize>) -> String {
         let name = shown(&self.source_name);
         at.map_or_else(
@@ -94,7 +94,7 @@ impl Text {
     }
 }
 
-/// Converts a parser message to a problem; escapes control characters.
+/// Converts a message of the TOML parser to a problem, and escapes control characters.
 fn explained(message: &str) -> SceneProblem {
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     match quoted.as_slice() {

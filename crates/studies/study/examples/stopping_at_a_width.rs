@@ -1,4 +1,4 @@
-//! Bias of an estimate whose number of contact points depends on the width of its interval, in simulated presses with a known mean absolute error.
+//! Bias of a mean absolute error, if the number of contact points depends on the width of its interval. The true error is simulated.
 
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
 
@@ -13,27 +13,29 @@ use taceva_protocol::WantedWidth;
 use taceva_results::{EvaluationReport, Samples};
 use taceva_study::ScoredWidth;
 
-/// Wanted widths, each with a fixed number of points for comparison.
+/// Wanted widths of the interval, each with a fixed number of contact points for comparison.
 const WANTED: [(f64, usize); 3] = [(0.6, 40), (0.3, 120), (0.2, 250)];
-/// Number of points of a pilot and of the first look, and between two looks.
+/// Number of contact points of a pilot, and before the first look at the width.
 const PILOT: usize = 20;
+/// Number of contact points between two looks.
 const BATCH: usize = 10;
-/// Greatest number of points of a study.
+/// Greatest number of contact points of a study.
 const MOST: usize = 640;
 const PRESSES: usize = 4;
 const RUNS: u32 = 1000;
-/// Mean standard deviation of errors, N. It differs between points, uniformly up to this share.
+/// Mean over contact points of the standard deviation of errors, in N.
 const DEVIATION_N: f64 = 0.1;
+/// Greatest difference of a point's deviation from the mean, as a share of the mean. Deviations are uniformly distributed.
 const SPREAD: f64 = 0.9;
 
-/// Rule for the number of points.
+/// Rule by which a study chooses its number of contact points.
 #[derive(Clone, Copy)]
 enum Rule {
-    /// Fixed before the first press.
+    /// A number fixed before the first press.
     Fixed(usize),
-    /// Predicted from a pilot, whose presses are kept.
+    /// A number predicted from a pilot, whose presses are kept.
     Pilot,
-    /// Looks at the width after each batch.
+    /// The first number for which the interval is narrow enough, with a look at its width after each batch of points.
     Looks,
 }
 
@@ -69,7 +71,7 @@ fn main() {
     }
 }
 
-/// Cells of a row.
+/// Cells of one row of the printed table, for the studies `found` and the wanted `width`.
 fn cells(found: &[Outcome], width: f64) -> String {
     let runs = f64::from(RUNS);
     let mean = |of: &dyn Fn(&Outcome) -> f64| found.iter().map(of).sum::<f64>() / runs;
@@ -100,7 +102,7 @@ impl Rule {
     }
 }
 
-/// Study number `run` by `rule`.
+/// Simulates study number `run`, with the number of points that `rule` chooses for the wanted `width`.
 fn outcome(run: u32, rule: Rule, width: f64) -> Outcome {
     let errors = errors(run);
     let (points, looks) = match rule {
@@ -128,7 +130,7 @@ fn outcome(run: u32, rule: Rule, width: f64) -> Outcome {
     }
 }
 
-/// Number of points that the pilot `errors` predicts for `width`, at least the points of the pilot.
+/// Number of points that the pilot with `errors` predicts for an interval of `width`, at least the number of the pilot.
 fn predicted(errors: &[[f64; PRESSES]], width: f64) -> usize {
     let mut report = EvaluationReport::of_arrays(&evaluated(errors));
     let mut table = "sample,point_id,Fz,Fz_predicted\n".to_owned();
@@ -148,7 +150,7 @@ fn predicted(errors: &[[f64; PRESSES]], width: f64) -> usize {
     needed.unwrap_or(MOST).max(PILOT)
 }
 
-/// Scores of the points `errors`.
+/// Scores of contact points with `errors`, one row of presses for each point.
 fn evaluated(errors: &[[f64; PRESSES]]) -> Evaluation {
     let metrics = catalogue::select(["mae"]).expect("a metric");
     let channels = Channels::new([Channel::FZ]).expect("one channel");
@@ -170,7 +172,7 @@ fn ends(evaluation: &Evaluation) -> [f64; 2] {
     score.interval.ends().expect("enough points")
 }
 
-/// Gaussian errors of all points that study `run` may press, N. Each point has its own deviation.
+/// Gaussian errors in N at all contact points that study `run` may press. Each point has its own standard deviation.
 fn errors(run: u32) -> Vec<[f64; PRESSES]> {
     let mut random = SplitMix64::new(u64::from(run));
     let mut unit = || open_unit(random.next_u64());
@@ -185,7 +187,7 @@ fn errors(run: u32) -> Vec<[f64; PRESSES]> {
     (0..MOST).map(|_| point()).collect()
 }
 
-/// Outcomes of all runs in order, whatever the number of threads.
+/// Outcomes of all runs, in the order of the runs. The number of threads has no effect on them.
 fn in_parallel(outcomes: impl Fn(Range<u32>) -> Vec<Outcome> + Sync) -> Vec<Outcome> {
     let threads = thread::available_parallelism().map_or(1, |threads| threads.get());
     let share = RUNS.div_ceil(u32::try_from(threads).unwrap_or(RUNS).max(1));

@@ -1,4 +1,4 @@
-//! Benchmarks of `taceva bench`: run time against error.
+//! Benchmarks of `taceva bench`: run time compared with error.
 
 mod front;
 mod kernels;

@@ -12,21 +12,21 @@ use crate::settings::settings_of;
 /// A classifier of grating spacings.
 #[derive(Debug)]
 pub(crate) enum SpacingClassifier {
-    /// Linear discriminants of the radial spectrum.
+    /// Linear discriminant analysis of the radial spectrum of a frame.
     Spectrum,
-    /// A model that reads the radial spectrum and predicts one of its training labels.
+    /// A model that reads the radial spectrum of a frame and predicts one of its training labels.
     Model(Box<ModelClassifier>),
     Network(Box<NetworkClassifier>),
 }
 
-/// A model that reads the radial spectrum, before its fit.
+/// Settings of a model that will be fitted to radial spectra of frames.
 #[derive(Debug)]
 pub(crate) struct ModelClassifier {
     pub(crate) model: ChosenModel,
     pub(crate) settings: ModelSettings,
 }
 
-/// A network that classifies grating spacings, before its fit.
+/// Settings of a network that will be fitted to classify grating spacings.
 #[derive(Debug)]
 pub(crate) struct NetworkClassifier {
     pub(crate) estimator: NetworkEstimator,
@@ -36,7 +36,7 @@ pub(crate) struct NetworkClassifier {
 }
 
 impl SpacingClassifier {
-    /// Classifier of `spec`.
+    /// Creates the classifier that `spec` requests.
     ///
     /// # Errors
     /// [`EvaluateError`] for an unknown setting, or a model that is not among `models`.

@@ -19,9 +19,9 @@ pub enum StudyError {
     /// The folder of a run cannot be created, read or resumed.
     #[error("{}: {problem}", taceva_core::shown(path))]
     RunFolder {
-        /// Path of the folder or of a file in it.
+        /// Path of the run folder, or of a file in it.
         path: PathBuf,
-        /// The fault and the expected content.
+        /// Text with the fault and the expected content.
         problem: String,
     },
 }
@@ -36,12 +36,12 @@ impl StudyError {
         }
     }
 
-    /// True if a device failed, as opposed to invalid input or a failed file operation.
+    /// True if a device failed. False for invalid input, or a failed file operation.
     pub fn is_of_device(&self) -> bool {
         matches!(self, StudyError::Acquire(error) if error.is_of_device())
     }
 
-    /// True if the command line is invalid, as opposed to a file.
+    /// True if the command line is invalid. False if a file is.
     pub fn is_usage(&self) -> bool {
         match self {
             StudyError::Acquire(error) => error.is_usage(),

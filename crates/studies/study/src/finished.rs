@@ -5,7 +5,7 @@ use taceva_evaluate::Target;
 use taceva_models::Model;
 use taceva_results::EvaluationReport;
 
-/// A finished study: its report, and its recording and model for further tests. Callers only read it; the run makes it.
+/// A finished study: the report, and recording and model for further tests. A run creates it, and callers only read it.
 ///
 /// ```no_run
 /// # fn of_run(studies: Vec<taceva_study::FinishedStudy>) {
@@ -18,11 +18,11 @@ use taceva_results::EvaluationReport;
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct FinishedStudy {
-    /// The report.
+    /// Report of the study.
     pub report: EvaluationReport,
-    /// The recording.
+    /// Recording of the study.
     pub dataset: Dataset,
-    /// The fitted or opened model; `None` if no metric of the study reads predictions.
+    /// Model of the study, fitted or read from a file; `None` if no metric of the study reads predictions.
     pub fitted: Option<FittedStudy>,
 }
 
@@ -30,8 +30,8 @@ pub struct FinishedStudy {
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct FittedStudy {
-    /// The model, or the model of the first seed if the study has several.
+    /// Model of the study, or that of the first seed if the study is fitted with several seeds.
     pub model: Model,
-    /// Calibration samples with a picture that the model has not seen.
+    /// Calibration samples with a frame that were not used to fit the model.
     pub unseen: Target,
 }

@@ -12,7 +12,7 @@ use crate::settings::settings_of;
 
 /// Checks before a run that every model of the scene is known and has valid settings.
 ///
-/// Separate from [`new`](PlannedScene::new), so that programs without these models can read the plan.
+/// [`PlannedScene::new`] does not make this check, so that programs without these models can read the plan.
 ///
 /// # Errors
 /// [`AcquireError::Scene`](taceva_acquire::AcquireError::Scene) with the line.
@@ -104,7 +104,7 @@ fn check_split(
     Ok(())
 }
 
-/// Rejects, before the first press, stored frames with a lower resolution than a model reads.
+/// Rejects, before the first press, stored frames with fewer pixels along x or y than `cells`, the grid that the model `who` reads.
 fn check_kept(
     scene: &PlannedScene,
     planned: &PlannedStudy,
@@ -131,7 +131,7 @@ fn check_kept(
     Err(scene.text.error(kept.at(), problem).into())
 }
 
-/// Classifier of grating spacings.
+/// Creates the classifier of grating spacings that the scene requests.
 ///
 /// # Errors
 /// [`AcquireError::Scene`](taceva_acquire::AcquireError::Scene) with the line of an unknown setting or model.
@@ -146,9 +146,9 @@ pub(crate) fn classifier(
     })
 }
 
-/// Fit request of the scene; `None` if the scene fits no model. Samples of one contact point stay in one part.
+/// Request to fit the model of a study; `None` if the scene fits no model. Samples of one contact point stay in one part.
 ///
-/// The seed `seed` of the scene divides the samples. Random draws of a model use the seed in the model's own settings.
+/// The split of the samples uses `seed`, the seed of the scene. Random draws of a model use the seed in the model's own settings.
 pub(crate) fn fit_request(
     planned: &PlannedStudy,
     seed: u64,
@@ -170,7 +170,7 @@ pub(crate) fn fit_request(
     Some(request())
 }
 
-/// Number of folds of the contact points, if the scene asks for a model for each fold.
+/// Number of folds of a cross-validation by contact points; `None` if the scene asks for none.
 pub(crate) fn folds(planned: &PlannedStudy) -> Option<usize> {
     let folds = planned.study.model.as_ref()?.folds.as_ref()?;
     usize::try_from(folds.value).ok()

@@ -19,20 +19,20 @@ use crate::models::check_models;
 use crate::stage::{RunContext, assess};
 pub use folder::{Existing, RunFolder};
 
-/// Resources of a run: workshop, models, cache and threads.
+/// Resources of a run: devices, models, cache and threads.
 #[derive(Clone, Copy)]
 pub struct RunSetup<'a> {
-    /// Devices and observers.
+    /// Devices of the run, with operator, progress display and viewer.
     pub workshop: Workshop<'a>,
-    /// The models of the program.
+    /// Models that the program knows.
     pub models: &'a Models,
-    /// Cache of finished stages, if any.
+    /// Cache of the results of finished stages; `None` runs every stage.
     pub cache: Option<&'a Cache>,
     /// Number of worker threads.
     pub jobs: NonZeroUsize,
 }
 
-/// Records the presses of `scene` in `folder`, with several studies at a time, and returns its finished studies in order.
+/// Records and evaluates the studies of `scene` in `folder`, several at the same time, and returns the finished studies in order.
 ///
 /// Reports do not depend on `jobs`, on interruptions of the run, or on the content of a cache.
 ///
@@ -69,8 +69,8 @@ pub fn run_scene(
     assessed.collect()
 }
 
-/// Acquires, resumes or finds the recordings of all studies of `scene` in `folder`, and returns them in order, as [`run_scene`] does. Each worker takes the
-/// next free study. Real devices exist only once, so their studies run in turn.
+/// Returns the recordings of all studies of `scene` in `folder`, in order. Each recording is found, resumed or acquired, as by [`run_scene`]. Each
+/// worker takes the next free study. Real devices exist only once, so their studies run in turn.
 ///
 /// # Errors
 /// [`AcquireError::Open`] and [`AcquireError::Acquisition`] as [`run_scene`]; [`AcquireError::Request`] for a scene that needs an operator if there
@@ -123,7 +123,7 @@ pub fn acquire_scene(
     errors.into_iter().chain(datasets).collect()
 }
 
-/// Recording of one study, acquired now or found.
+/// Recording of one study, from the cache if it is there, otherwise acquired now.
 fn obtain(
     study: &PlannedStudy,
     number: usize,

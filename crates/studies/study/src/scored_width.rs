@@ -8,34 +8,34 @@ use taceva_metrics::{HASHED_CLUSTERS, LEAST_CLUSTERS, NAMED_CLUSTERS, OneWay, pl
 use taceva_protocol::{PhaseKind, WantedWidth};
 use taceva_results::{EvaluationReport, Interval, SampleChannel, Samples};
 
-/// Least degrees of freedom of an interval by contact point.
+/// Least degrees of freedom that are assumed for an interval by contact point.
 const LEAST_FREEDOM: f64 = 3.0;
-/// Share of Student's t below the upper end of a 95 % interval.
+/// Probability below the upper end of a 95 % interval, for which the quantile of Student's t is taken.
 const UPPER: f64 = 0.975;
 
-/// Contact points behind a score.
+/// Number of contact points from which a score is computed, and of samples at each point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TestedPoints {
-    /// Number of points.
+    /// Number of contact points.
     pub points: usize,
-    /// Mean number of samples of a point.
+    /// Mean number of samples at a contact point.
     pub samples: f64,
 }
 
-/// Width of the 95 % interval of one score, upper end / lower end − 1, with the variances that predict it for other numbers of points.
+/// Width of the 95 % interval of one score: upper end / lower end − 1. The variances of errors predict the width for other numbers of points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScoredWidth {
     tested: TestedPoints,
-    /// Upper end / lower end.
+    /// Upper end / lower end of the interval.
     ratio: f64,
     freedom: f64,
-    /// Variance of errors between points.
+    /// Variance of errors between contact points. Only the ratio to `within` matters.
     between: f64,
-    /// Variance of errors of the samples of one point.
+    /// Variance of errors among the samples of one contact point.
     within: f64,
 }
 
-/// Reason why a result has no width of a score.
+/// Reason why a result has no width for a score.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoWidth {
@@ -45,12 +45,12 @@ pub enum NoWidth {
     /// The score has no interval.
     #[error("`{score}` has no interval: {reason}")]
     NoInterval {
-        /// The score.
+        /// Name of the score, such as `mae.Fz`.
         score: String,
-        /// Reason.
+        /// Reason why the interval is missing.
         reason: String,
     },
-    /// The lower end of the interval is 0, so it has no relative width.
+    /// The lower end of the interval is 0, so the interval has no relative width.
     #[error("the interval of `{0}` reaches 0")]
     ReachesZero(String),
     /// The samples of the result were not found, or name no contact points.
@@ -59,10 +59,10 @@ pub enum NoWidth {
 }
 
 impl ScoredWidth {
-    /// Width of the score of `wanted` in `report`.
+    /// Width of the interval of the score `wanted` in `report`, with the variances of errors.
     ///
     /// # Errors
-    /// [`NoWidth`] without the score, its interval or its samples.
+    /// [`NoWidth`] if `report` lacks the score, its interval or its samples.
     pub fn of(report: &EvaluationReport, wanted: &WantedWidth) -> Result<ScoredWidth, NoWidth> {
         let (ratio, freedom) = ratio(report, wanted)?;
         let freedom = freedom
@@ -92,30 +92,32 @@ impl ScoredWidth {
         })
     }
 
-    /// Width of the score of `wanted` in `report`, also without its samples.
+    /// Width of the interval of the score `wanted` in `report`: upper end / lower end − 1. The samples of the report are not needed.
     ///
     /// # Errors
-    /// [`NoWidth`] without the score or its interval.
+    /// [`NoWidth`] if `report` lacks the score or its interval.
     pub fn reached(report: &EvaluationReport, wanted: &WantedWidth) -> Result<f64, NoWidth> {
         ratio(report, wanted).map(|(ratio, _)| ratio - 1.0)
     }
 
-    /// Points behind the score.
+    /// Contact points from which the score was computed.
     pub fn tested(&self) -> TestedPoints {
         self.tested
     }
 
-    /// Width of the interval.
+    /// Width of the interval: upper end / lower end − 1.
     pub fn width(&self) -> f64 {
         self.ratio - 1.0
     }
 
-    /// Expected width with the points `tested`; `None` if they are too few for an interval. Infinitely many samples of each point give the lower
-    /// limit of the width for further presses at the same places.
+    /// Expected width with the number of points and samples in `tested`; `None` if the points are too few for an interval. Infinitely many samples at
+    /// each point give the lower limit of the width for further presses at the same places.
     ///
-    /// The interval is symmetric on a logarithm. Its standard error is that of a mean of points with variance s_b² + s_w²/m, where s_b² is the
-    /// variance between points, s_w² within a point, and m the samples of each point. Unequal sizes leave ν < g − 1 degrees of freedom of g clusters:
-    /// 1/ν − 1/(g − 1) is inversely proportional to the number of points.
+    /// The interval is symmetric on a logarithmic scale. Its standard error is that of a mean over points with the variance s_b² + s_w²/m. Here s_b²
+    /// is the variance between points, s_w² the variance within a point, and m the number of samples at each point.
+    ///
+    /// If the errors of points differ in size, g clusters leave ν < g − 1 degrees of freedom. The difference 1/ν − 1/(g − 1) is inversely
+    /// proportional to the number of points.
     pub fn expected(&self, tested: TestedPoints) -> Option<f64> {
         if tested.points < LEAST_CLUSTERS {
             return None;
@@ -135,7 +137,7 @@ impl ScoredWidth {
         Some(self.ratio.powf(factor) - 1.0)
     }
 
-    /// Least number of points, at most `most`, whose expected width with `samples` samples each is at most `width`; `None` if no number suffices.
+    /// Least number of points with an expected width of at most `width`, with `samples` samples each. `None` if no number up to `most` suffices.
     pub fn needed(&self, width: f64, samples: f64, most: usize) -> Option<usize> {
         let reaches = |points: usize| {
             let expected = self.expected(TestedPoints { points, samples });
@@ -149,7 +151,7 @@ impl ScoredWidth {
     }
 }
 
-/// Upper end / lower end of the interval of `wanted` in `report`, and its degrees of freedom if stated.
+/// Upper end / lower end of the interval of the score `wanted` in `report`, with the degrees of freedom if the report states them.
 fn ratio(report: &EvaluationReport, wanted: &WantedWidth) -> Result<(f64, Option<f64>), NoWidth> {
     let score = report.score(&wanted.metric, &wanted.channel);
     let score = score.ok_or_else(|| NoWidth::NoScore(wanted.to_string()))?;
@@ -172,7 +174,7 @@ fn no_interval(wanted: &WantedWidth, reason: &str) -> NoWidth {
     }
 }
 
-/// Number of clusters of `points` contact points.
+/// Number of clusters into which an interval groups `points` contact points.
 fn clusters(points: usize) -> usize {
     match points {
         ..=NAMED_CLUSTERS => points,
@@ -180,7 +182,7 @@ fn clusters(points: usize) -> usize {
     }
 }
 
-/// First number of `range` for which `holds` returns true; `None` without such a number. `holds` must then return true for all greater numbers.
+/// First number in `range` for which `holds` is true; `None` without one. `holds` must then be true for every greater number.
 fn first(range: Range<usize>, holds: impl Fn(usize) -> bool) -> Option<usize> {
     let (mut least, mut found) = (range.start, range.end.checked_sub(1)?);
     if found < least || !holds(found) {
@@ -196,7 +198,7 @@ fn first(range: Range<usize>, holds: impl Fn(usize) -> bool) -> Option<usize> {
     Some(found)
 }
 
-/// Columns of `channel`, or of both axes of a plane.
+/// Sample columns of `channel`, or of both axes if `channel` is a plane.
 fn axes<'a>(samples: &'a Samples, channel: &str) -> Vec<SampleChannel<'a>> {
     match plane_axes(channel) {
         Some(axes) => axes
@@ -207,7 +209,7 @@ fn axes<'a>(samples: &'a Samples, channel: &str) -> Vec<SampleChannel<'a>> {
     }
 }
 
-/// Absolute or squared errors of the calibration presses whose mean is `metric`, by contact point.
+/// Errors of the calibration presses by contact point, squared for `rmse` and absolute otherwise. The metric is their mean or its root.
 fn errors<'a>(
     samples: &'a Samples,
     axes: &[SampleChannel<'_>],

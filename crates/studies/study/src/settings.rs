@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use taceva_models::{ModelSettings, SettingError};
 
-/// Model settings of a scene, by name.
+/// Model settings of a scene, from the table `set` of values by name.
 ///
 /// # Errors
 /// [`SettingError`] for an invalid name.

@@ -1,4 +1,4 @@
-//! Stages from the recording of a study to its report: fit, predict and score. Each stage reads its planned presses.
+//! Stages from the recording of a study to the report: fit, predict and score. Each stage reads only the presses that are planned for it.
 
 mod context;
 mod gratings;
@@ -202,7 +202,7 @@ pub(crate) fn assess(
     })
 }
 
-/// Writes the state of a group of rows, for the bundles of the run.
+/// Writes the state of a group of rows to `path`. Bundles of the run contain this file.
 fn write_state(state: &StateFile, path: &Path) -> Result<(), StudyError> {
     let failed = |error: io::Error| StudyError::RunFolder {
         path: path.to_owned(),
@@ -215,7 +215,7 @@ fn write_state(state: &StateFile, path: &Path) -> Result<(), StudyError> {
     .map_err(failed)
 }
 
-/// Writes the model of a study to `path`, for the bundles of the run.
+/// Writes the model of a study to `path`. Bundles of the run contain this file.
 fn save_model(model: &Model, path: &Path) -> Result<(), StudyError> {
     let failed = |problem: String| StudyError::RunFolder {
         path: path.to_owned(),

@@ -18,26 +18,26 @@ pub struct Signals {
     /// True if bit-equal readings after a motion mean a frozen signal, even with new sequence numbers. False if the resolution of the transducer is as coarse
     /// as its noise. Then only a repeated sequence number means a frozen signal.
     pub equality_is_frozen: bool,
-    /// True if the host zeroes the force by a mean over 0.25 s. The transducer then sets its own zero only once per session.
+    /// True if the host subtracts the mean force of 0.25 s without contact. The transducer then sets its own zero only once per session.
     pub host_zero: bool,
-    /// Greatest change of a component of the host's zero during a press, in N. `None` for 5 times the least force that counts as contact.
+    /// Greatest change of the zero force during a press, along any axis, in N. `None` for 5 times the least force that counts as contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub zero_step_max_n: Option<f64>,
 }
 
-/// Least allowed age of a reading, in s: three periods of a 60 Hz transducer.
+/// Least value of the greatest age of a reading, in s: three periods of a 60 Hz transducer.
 pub const STALE_S: f64 = 0.05;
 /// Number of consecutive readings that a transducer slower than 60 Hz may miss.
 const STALE_READINGS: f64 = 3.0;
 /// Maximum travel of the tip in contact before readings count as stale, in mm.
 const BLIND_MM: f64 = 0.25;
 
-/// Least force that counts as contact in the air, in standard deviations of the force noise.
+/// Force that counts as contact during a motion through the air, in standard deviations of the force noise.
 const AIR_NOISES: f64 = 5.0;
 /// Suggested contact threshold, in standard deviations of the force noise. It also covers the noise of the zero, and slow drift.
 const CALM_NOISES: f64 = 10.0;
 
-/// Default of the greatest change of the zero during a press, in multiples of the least force that counts as contact.
+/// Default of the greatest change of the zero force during a press, in multiples of the least force that counts as contact.
 const ZERO_STEPS: f64 = 5.0;
 
 /// Suggested `threshold_N`, in N, for a force with the noise `noise_n`. `None` if `threshold_n` is at least 5 times the noise.
@@ -70,12 +70,12 @@ impl Signals {
         3.0 * self.pose_noise_mm
     }
 
-    /// Least force in the air that exceeds the noise, in N.
+    /// Least force that exceeds the noise while the tip is in the air, in N.
     pub(crate) fn air_n(&self) -> f64 {
         AIR_NOISES * self.force_noise_n
     }
 
-    /// Greatest change of a component of the zero during a press, in N, for this contact threshold.
+    /// Greatest change of the zero force during a press, along any axis, in N. `threshold_n` is the contact threshold.
     pub(crate) fn zero_step_n(&self, threshold_n: f64) -> f64 {
         self.zero_step_max_n
             .unwrap_or(ZERO_STEPS * threshold_n.max(self.air_n()))
@@ -158,10 +158,10 @@ fn one_clock(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<(), SceneErr
 /// Maximum time from an exceeded limit to a tip at rest, in ms. It includes one period of the transducer, the latency of the link, sending of the halt, and the
 /// stop time of the arm.
 const HALT_MS: f64 = 50.0;
-/// Part of [`HALT_MS`] for the link and for sending, in ms.
+/// Share of [`HALT_MS`] for the latency of the link and for sending the halt, in ms.
 const SEND_MS: f64 = 2.0;
 
-/// Rejects a robot that takes too long to stop for a guard.
+/// Rejects a robot whose stop after an exceeded limit takes longer than [`HALT_MS`].
 fn stops_in_time(
     scene: &Scene,
     study: &Study,

@@ -8,10 +8,10 @@ use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press};
 use crate::scene::spacing_of;
 
-/// Two presses for each pair. The repeat of a press is its number, so the presses 2 n and 2 n + 1 are a pair.
+/// Two presses for each pair. A press has its index as repeat, so presses 0 and 1 are a pair, then 2 and 3.
 ///
-/// Places are at most half of the greatest shift from the centre, and turns are between 0 and the greatest turn. A pair then differs by at most the
-/// greatest shift and the greatest turn.
+/// A place is at most half of the greatest shift from the centre, along each axis. A turn is between 0 and the greatest turn. The two presses of a
+/// pair therefore differ by at most the greatest shift along each axis, and the greatest turn.
 pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     let draws = inputs.draws(PhaseKind::Pose);
     let spec = &inputs.protocol.pose;
@@ -43,7 +43,7 @@ pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
         .collect()
 }
 
-/// Converts an angle that was checked during parsing.
+/// Converts an angle in degrees that was checked during parsing.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "an angle of a scene is above 0 and at most 90 degrees"

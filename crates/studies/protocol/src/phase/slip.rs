@@ -33,7 +33,7 @@ pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     (0..u64::from(spec.strokes.value)).map(stroke).collect()
 }
 
-/// Rounding error of a number of steps.
+/// Tolerance for the rounding error of a number of steps.
 const SLACK: f64 = 1e-9;
 
 /// Greatest number of steps of a stroke.

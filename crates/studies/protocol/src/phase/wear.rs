@@ -1,4 +1,4 @@
-//! Load cycles that wear the gel before the measured presses of a stage.
+//! Load cycles that wear the gel before the measured presses of a stage of wear.
 
 use taceva_core::Nanometre;
 

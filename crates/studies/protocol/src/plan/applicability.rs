@@ -82,7 +82,7 @@ fn obstacle(
     None
 }
 
-/// Removes shear channels from metrics of repeated predictions if the gel has no markers, because its frames do not show shear (TacEva 2025).
+/// Removes shear channels from metrics of repeatability if the gel has no markers, because its frames do not show shear (TacEva 2025).
 fn narrow_shear(metric: &mut PlannedMetric, collected: &mut Collected, facts: &StudyFacts<'_>) {
     let reads_repeats =
         metric.phase == PhaseKind::Repeatability && metric.fields.contains(Field::Prediction);

@@ -71,7 +71,7 @@ fn phase_of(id: &str, fields: FieldSet) -> PhaseKind {
 /// A metric to compute, with its channels and its phase.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlannedMetric {
-    /// Id in the catalogue.
+    /// Id in the catalogue of metrics.
     pub id: String,
     /// Channels of the truth for which, or from which, the metric is computed.
     pub channels: Vec<String>,
@@ -102,7 +102,7 @@ pub struct Fit {
     pub field: Field,
     /// Phase whose presses the model is fitted on.
     pub phase: PhaseKind,
-    /// Number of folds of the contact points, each predicted by a model of its own. `None` for one model.
+    /// Number of folds into which contact points are divided. A separate model predicts each fold. `None` for one model.
     pub folds: Option<u32>,
 }
 
@@ -192,7 +192,7 @@ impl Collected {
             .map(|skip| &skip.reason)
     }
 
-    /// True if a planned metric or model of phase `kind` reads frames.
+    /// True if phase `kind` needs frames: for its metrics, its model, its task or the timing of frames.
     pub(crate) fn looks_at_pictures(&self, kind: PhaseKind) -> bool {
         // The idle phase measures the timing of frames, and tasks are predicted from frames.
         if kind == PhaseKind::Idle || kind.is_of_task() {

@@ -24,7 +24,7 @@ pub struct Cost {
 
 /// Frame rate assumed if no rate is stated, in frames per second. It is just below the frame rate of the slowest sensor in the TacEva study.
 const UNKNOWN_RATE: f64 = 24.0;
-/// Duration of reading force and pose after a segment, in s.
+/// Time to read force and pose after a segment of motion, in s.
 const LOOK_S: f64 = 0.005;
 
 /// Estimates the cost of `presses`.
@@ -76,7 +76,7 @@ struct Price<'a> {
     frame_s: f64,
     travel_mm_s: f64,
     segment_mm: f64,
-    /// Assumed depth of a load, in mm/N.
+    /// Assumed indentation per newton of load, in mm/N.
     depth_mm_per_n: f64,
 }
 

@@ -78,11 +78,11 @@ impl fmt::Display for Plan {
     }
 }
 
-/// Id of the metric that is added to every study with predictions.
+/// Id of the skill metric, which is added to every study with predictions.
 const SKILL: &str = "skill";
 
 impl Plan {
-    /// True if the skill is added because a metric or a contact shape reads predictions.
+    /// True if the skill metric is added because a planned metric or the score of contact shapes reads predictions.
     fn adds_skill(&self) -> bool {
         let reads = |metric: &PlannedMetric| metric.fields.contains(Field::Prediction);
         let is_predicted =

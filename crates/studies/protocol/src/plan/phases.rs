@@ -7,7 +7,7 @@ use super::study_facts::{ModelChoice, StudyFacts};
 use crate::phase_kind::PhaseKind;
 use crate::reason::{Cause, PlanReason, Subject};
 
-/// Removes models that no metric reads, then phases that no metric or model uses.
+/// Removes tasks without a model, then models that nothing reads, then phases that no metric, model or task uses.
 pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collected {
     for kind in [PhaseKind::Shape, PhaseKind::Pose] {
         if collected.phases.contains(&kind)
@@ -51,8 +51,8 @@ pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collecte
     collected
 }
 
-/// Reason why no model predicts the presses of the task `kind`; `None` if a model predicts them. Shapes need the model of the study. Changes of pose
-/// need their own model, which is fitted to them.
+/// Reason why no model predicts the presses of the task `kind`; `None` if a model predicts them. Shapes are predicted by the model of the study.
+/// Changes of pose are predicted by a model that is fitted to them.
 fn unpredicted(
     kind: PhaseKind,
     collected: &Collected,

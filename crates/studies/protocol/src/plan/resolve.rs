@@ -1,4 +1,4 @@
-//! Pass 1: finds the source of each channel and field. Removes channels and fields without a source. The recorded reason is the chain of missing sources.
+//! Pass 1: finds the source of each channel and field. Removes channels and fields without a source, and records the missing device, model or field.
 
 use taceva_core::{Field, SkipReason};
 
@@ -27,7 +27,7 @@ pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collecte
     collected
 }
 
-/// Missing device that would measure `channel`; `None` if the channel is measured.
+/// Missing device without which `channel` is not measured; `None` if the channel is measured.
 fn channel_cause(channel: &str, facts: &StudyFacts<'_>) -> Option<Cause> {
     let FieldSource::Rig { robot, force, .. } = facts.field_source else {
         return None;

@@ -19,7 +19,7 @@ use crate::scene::{Scene, Study, phase_of_task};
 use crate::source::{RecordingInfo, RigInfo, SourceInfo};
 use crate::text::{SceneError, SceneProblem};
 
-/// The model of a study.
+/// Kind of model that a study uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ModelChoice {
     None,
@@ -48,13 +48,13 @@ pub(crate) struct StudyFacts<'a> {
     pub(crate) opaque: Option<bool>,
     pub(crate) markers: Option<bool>,
     pub(crate) model: ModelChoice,
-    /// Number of folds of the contact points, if the scene asks for a model for each fold.
+    /// Number of folds of a cross-validation by contact points; `None` without folds.
     pub(crate) folds: Option<u32>,
     pub(crate) units: Vec<String>,
     pub(crate) lights: Vec<String>,
     /// Requested metrics; `None` for all.
     pub(crate) wanted: Option<Vec<&'static str>>,
-    /// Inputs for drawing presses; `None` if the study makes no presses.
+    /// Inputs of the phases from which presses are drawn; `None` if the study makes no presses.
     pub(crate) phase_inputs: Option<PhaseInputs<'a>>,
     pub(crate) limits: Option<RigLimits>,
     pub(crate) frame: Option<FrameInfo>,
@@ -110,7 +110,7 @@ impl StudyFacts<'_> {
     }
 }
 
-/// Collects the facts of `study` from `source`. Presses borrow `units` and `lights`.
+/// Inputs from which the facts of `study` are collected.
 pub(crate) struct Gather<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) study: &'a Study,
@@ -275,7 +275,7 @@ impl<'a> Gather<'a> {
         }
     }
 
-    /// Number of folds in the scene; `None` without folds. Rejects more folds than `points`.
+    /// Number of folds of the cross-validation that the scene asks for; `None` without folds. Rejects more folds than `points`.
     fn folds(&self, points: u32) -> Result<Option<u32>, SceneError> {
         let model = self.study.model.as_ref();
         let Some(folds) = model.and_then(|model| model.folds.as_ref()) else {
@@ -373,7 +373,7 @@ fn whole_nanometres_within(millimetres: f64) -> Nanometre {
     }
 }
 
-/// Fields of a press that the protocol itself determines.
+/// Fields of samples whose values follow from the protocol, without a device.
 pub(crate) const OF_THE_PROTOCOL: [Field; 6] = [
     Field::Point,
     Field::DepthStep,

@@ -1,4 +1,4 @@
-//! Rejects the wanted width of a score that no study of the scene computes.
+//! Check of wanted widths: each must belong to a score that a study of the scene computes.
 
 use taceva_core::SkipReason;
 use taceva_metrics::plane_axes;
@@ -39,7 +39,7 @@ pub(super) fn check(scene: &Scene, plans: &[Plan]) -> Result<(), SceneError> {
 }
 
 impl Plan {
-    /// True if the plan keeps the score of `wanted`; for a plane such as `Pxy`, the scores of both its channels.
+    /// True if the plan keeps the score of `wanted`; for a plane such as `Pxy`, the scores of both channels.
     pub fn scores(&self, wanted: &WantedWidth) -> bool {
         let axes = plane_axes(&wanted.channel);
         let has = |metric: &PlannedMetric, name: &str| {

@@ -1,4 +1,4 @@
-//! Load cycles of a stage, put before its measured presses after all passes. No pass removes cycles.
+//! Load cycles of a stage of wear. They are added before the measured presses, when all passes are done. No pass removes them.
 
 use std::fmt;
 
@@ -25,9 +25,9 @@ use crate::text::SceneProblem;
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct PlannedWear {
-    /// Name of the study in the scene, which all stages share.
+    /// Name of the study in the scene, common to the plans of all its stages of wear.
     pub sensor: String,
-    /// Load of the cycles.
+    /// Kind of load of a cycle: compression, shear or abrasion.
     pub load: String,
     /// Normal force of a cycle, in N.
     #[serde(rename = "force_N")]
@@ -37,13 +37,13 @@ pub struct PlannedWear {
     pub travel_mm: Option<f64>,
     /// Number of cycles of the plan.
     pub cycles: u32,
-    /// Number of presses on the gel before the measured presses, if every planned press is made.
+    /// Number of presses on the gel before the first measured press, if the run makes every planned press.
     pub presses_since_gel: u32,
     /// Time of the cycles, in minutes. The cost of the plan includes this time.
     pub minutes: f64,
 }
 
-/// The cycles, their time, and the presses before the measured presses.
+/// Formats the cycles, their time, and the number of earlier presses.
 impl fmt::Display for PlannedWear {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let cycles = counted(self.cycles, "cycle");
@@ -57,7 +57,7 @@ impl fmt::Display for PlannedWear {
     }
 }
 
-/// Puts the cycles of the stage of `study` before `presses`. `None` for a study without stages.
+/// Puts the load cycles of `study` before its `presses`. Returns `None` for a study without stages of wear.
 pub(super) fn put_before(
     presses: &mut Vec<PlannedPress>,
     study: &Study,

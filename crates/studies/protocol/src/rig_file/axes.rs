@@ -4,7 +4,7 @@ use std::fmt;
 
 use taceva_core::{Axes, Axis};
 
-/// Rotation by right angles from a device to the sensor: a signed axis of the device for each axis of the sensor.
+/// Rotation by right angles from a device frame to the sensor frame. Each sensor axis has a signed device axis.
 ///
 /// ```
 /// use taceva_protocol::SignedAxes;
@@ -87,7 +87,7 @@ impl SignedAxes {
         device
     }
 
-    /// Both frames with the opposite z: after half a turn about x, and about y.
+    /// Returns the axes after half a turn of the sensor frame about its x, and about its y. Both reverse z.
     ///
     /// ```
     /// use taceva_protocol::SignedAxes;
@@ -100,7 +100,7 @@ impl SignedAxes {
         [1, 0].map(|beside| self.reversed(&[beside, 2]))
     }
 
-    /// The same axes, with the opposite sign of the axes of the sensor at `positions`.
+    /// Reverses the sensor axes with the indices `positions`: 0 for x, 1 for y, 2 for z.
     fn reversed(self, positions: &[usize]) -> SignedAxes {
         let mut axes = self.0;
         for at in positions {
@@ -126,8 +126,8 @@ impl SignedAxes {
         measured
     }
 
-    /// Corrects these axes by three forces along x, y and z of the sensor. `felt` contains the axis and sign (1 or −1) that these axes report for each force.
-    /// `None` if the result is not right-handed.
+    /// Corrects the axes by three test forces along x, y and z of the sensor. `felt` has the axis and sign that the present axes report for each
+    /// force. `None` if the result is not right-handed.
     pub(crate) fn as_felt(self, felt: [Along; 3]) -> Option<SignedAxes> {
         let along = felt.map(|felt| Along {
             axis: self.0[felt.axis].axis,

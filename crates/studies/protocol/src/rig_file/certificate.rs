@@ -8,7 +8,7 @@ use toml::{Spanned, Value};
 use super::Check;
 use crate::text::{SceneError, Setting};
 
-/// Entries of a certificate as written.
+/// Entries of a `certificate` table, as the rig file states them.
 pub(super) type WrittenCertificate = Setting<BTreeMap<Spanned<String>, Value>>;
 
 impl Check<'_> {

@@ -6,8 +6,9 @@ use serde::Deserialize;
 
 use crate::text::{SceneError, SceneProblem, Setting, Text};
 
-/// Default and greatest duration of a change, in s.
+/// Default time for a change of specimen or unit, in s.
 const USUAL_CHANGE_S: f64 = 60.0;
+/// Greatest accepted time for a change, in s.
 const GREATEST_CHANGE_S: f64 = 3_600.0;
 
 /// Changers of a rig. The operator makes changes for which there is no changer.
@@ -26,13 +27,13 @@ const GREATEST_CHANGE_S: f64 = 3_600.0;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigChangers {
-    /// Selector of the changer that mounts specimens on the robot, if any.
+    /// Selector of the driver of the changer that mounts specimens on the robot, if any.
     pub specimen: Option<Setting<String>>,
-    /// Selector of the changer that places sensor units under the robot, if any.
+    /// Selector of the driver of the changer that places sensor units under the robot, if any.
     pub unit: Option<Setting<String>>,
-    /// Selector of the lighting, if any. It replaces the lighting of the scene.
+    /// Selector of the driver of the lighting, if any. This lighting replaces the lighting of the scene.
     pub light: Option<Setting<String>>,
-    /// Longest duration of a change of specimen or unit.
+    /// Longest time to wait for a change of specimen or unit.
     pub patience: Duration,
 }
 

@@ -3,19 +3,20 @@
 use super::RigFile;
 use crate::text::Setting;
 
-/// Keys of a latency and of its standard uncertainty.
+/// Key of the latency of a device in its table.
 pub(super) const LATENCY: &str = "latency_ms";
+/// Key of the standard uncertainty of a latency.
 pub(super) const UNCERTAINTY: &str = "latency_u_ms";
 
 /// Delay of a device relative to the robot, measured by taps.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Latency {
-    /// Remaining delay between the corrected stamps, in ms; negative if the robot reports later.
+    /// Delay that remains after the present latencies are applied, in ms; negative if the robot reports later.
     pub after_robot_ms: f64,
     /// Two standard errors of the delay, in ms.
     pub error_ms: f64,
-    /// Two standard deviations of a single tap, in ms.
+    /// Two standard deviations of the delay of a single tap, in ms.
     pub spread_ms: f64,
 }
 
@@ -45,11 +46,11 @@ pub struct RigLatencies {
 }
 
 impl RigLatencies {
-    /// Computes the latencies from taps. `before` contains the latencies of robot, transducer and sensor that already correct the time stamps. `force` and
-    /// `sensor` are the remaining delays relative to the robot.
+    /// Computes the latencies from taps. `before` has the latencies of robot, transducer and sensor in use during the taps. `force` and `sensor` are
+    /// the remaining delays relative to the robot.
     ///
-    /// Taps measure only differences, so the latency of the robot is not changed. If another latency is below 0 by more than its error, all three are shifted
-    /// until the least is 0.
+    /// Taps measure only differences, so the latency of the robot normally stays. If another latency is below 0 by more than its error, all three
+    /// increase until the least is 0.
     pub fn measured(before: [f64; 3], force: &Latency, sensor: &Latency) -> RigLatencies {
         let [robot_ms, force_ms, sensor_ms] = before;
         let force_ms = force_ms + force.after_robot_ms;
@@ -72,14 +73,14 @@ impl RigLatencies {
 }
 
 impl Latency {
-    /// Standard uncertainty of a latency that is rounded to 0.1 ms, in ms, rounded up to 0.01 ms.
+    /// Standard uncertainty of the latency, with that of rounding to 0.1 ms. In ms, rounded up to 0.01 ms.
     fn standard_ms(&self) -> f64 {
         let rounding_ms = 0.1 / 12.0_f64.sqrt();
         (100.0 * (0.5 * self.error_ms).hypot(rounding_ms)).ceil() / 100.0
     }
 }
 
-/// Number in the table of a device.
+/// Latency or uncertainty to write in the table of a device.
 struct Entry<'a> {
     key: &'static str,
     driver: &'a Setting<String>,
@@ -96,7 +97,7 @@ impl Entry<'_> {
 }
 
 impl RigFile {
-    /// Text of the file with `latencies`, otherwise unchanged. `None` if a device is missing, or if no line can be inserted after `driver` in its table.
+    /// Text of the file with `latencies` written into it. `None` if a device is missing, or if its table takes no line after `driver`.
     pub fn with_latencies(&self, latencies: &RigLatencies) -> Option<String> {
         let (force, sensor) = (self.force.as_ref()?, self.sensor.as_ref()?);
         let entry = |key, driver, before, value_ms| Entry {
@@ -169,7 +170,7 @@ impl RigFile {
     }
 }
 
-/// Replaces a number, or inserts it in a line after the driver; `None` if the text has no such position.
+/// Replaces the number of `entry` in `text`, or inserts it in a line after the driver; `None` if the text has no such position.
 fn put(text: &mut String, entry: &Entry<'_>) -> Option<()> {
     let Entry {
         key,

@@ -5,16 +5,17 @@ use serde::Deserialize;
 use super::Check;
 use crate::text::{SceneError, SceneProblem, Setting};
 
-/// Default and greatest wait for a held enabling switch, in s.
+/// Default time to wait for a held enabling switch, in s.
 const USUAL_PATIENCE_S: f64 = 60.0;
+/// Greatest accepted time to wait for a held enabling switch, in s.
 const GREATEST_PATIENCE_S: f64 = 86_400.0;
 
 /// Enabling switch of a rig, which its operator holds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigOperator {
-    /// Selector of the enabling switch. Releasing the switch halts the robot.
+    /// Selector of the driver of the enabling switch. Releasing the switch halts the robot.
     pub enable: Setting<String>,
-    /// Maximum wait for the switch to be held, in s.
+    /// Longest time to wait until the operator holds the switch, in s.
     pub patience_s: f64,
 }
 

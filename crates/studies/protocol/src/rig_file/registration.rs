@@ -6,7 +6,8 @@ use super::{Carried, RigRobot, SignedAxes};
 
 /// Place and rotation of the robot base frame relative to the sensor frame.
 ///
-/// Let A be the rotation from base to sensor by `axes`, o the `origin_mm`, p the reported position, and Q the tool rotation since registration:
+/// A is the rotation from base to sensor by `axes`, and o the `origin_mm`. p is the reported position, and Q the rotation of the tool since
+/// registration.
 ///
 /// - If the robot carries the indenter, the tip is at A·(p − o), rotated by A·Q·Aᵀ.
 /// - If it carries the sensor, the tip rests at o in the base frame. It is at A·Qᵀ·(o − p), rotated by A·Qᵀ·Aᵀ.
@@ -25,7 +26,7 @@ pub struct Registration {
 type Matrix = [[f64; 3]; 3];
 
 impl Registration {
-    /// Registration of `robot`; `turned` is the rotation of its tool in the base frame at registration.
+    /// Creates the registration of `robot`; `turned` is the rotation of its tool in the base frame at registration.
     pub fn new(robot: &RigRobot, turned: Rotation) -> Registration {
         Registration {
             carries: robot.carries,
@@ -54,7 +55,7 @@ impl Registration {
         )
     }
 
-    /// Target of the robot for the pose `tip` in the sensor frame.
+    /// Pose in the base frame to which the robot must move for the pose `tip` in the sensor frame.
     pub fn to_base(&self, tip: &Pose) -> Pose {
         let turn = self.turn_to_base(&matrix(&tip.rotation));
         let place = self.axes.to_device(coordinates(&tip.position));
@@ -86,7 +87,7 @@ fn coordinates(point: &Point) -> [f64; 3] {
     [point.x.0, point.y.0, point.z.0]
 }
 
-/// Pose at `place` with the rotation `turn`, expressed by the angles nearest to `near`.
+/// Pose at `place` with the rotation `turn`. Of all equivalent angles, those nearest to `near` are chosen.
 fn pose([x, y, z]: [f64; 3], turn: &Matrix, near: &Rotation) -> Pose {
     let [x, y, z] = [x, y, z].map(Millimetre);
     Pose {
@@ -96,7 +97,7 @@ fn pose([x, y, z]: [f64; 3], turn: &Matrix, near: &Rotation) -> Pose {
     .on_grid()
 }
 
-/// Rotation matrix Rz·Ry·Rx: rotations about the fixed x, then y, then z.
+/// Rotation matrix Rz·Ry·Rx: rotations about x, then y, then z, each a fixed axis.
 fn matrix(rotation: &Rotation) -> Matrix {
     let [x, y, z] = [rotation.x, rotation.y, rotation.z].map(|angle| angle.0.to_radians());
     let ((sx, cx), (sy, cy), (sz, cz)) = (x.sin_cos(), y.sin_cos(), z.sin_cos());
@@ -107,7 +108,7 @@ fn matrix(rotation: &Rotation) -> Matrix {
     ]
 }
 
-/// Angles of a rotation matrix. At y = ±90°, x and z share an axis, and x is then copied from `near`.
+/// Rotation angles of the matrix `turn`, each nearest to that of `near`. At y = ±90°, x and z share an axis, so x is copied from `near`.
 fn rotation(turn: &Matrix, near: &Rotation) -> Rotation {
     let level = turn[0][0].hypot(turn[1][0]);
     let y = (-turn[2][0]).atan2(level).to_degrees();

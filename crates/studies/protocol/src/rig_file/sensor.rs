@@ -12,7 +12,7 @@ use crate::text::{SceneError, Setting};
 /// A sensor of a rig.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigSensor {
-    /// Selector of the driver.
+    /// Text that selects the driver of the sensor.
     pub driver: Setting<String>,
     /// Delay between a frame and its stamp, in ms; `None` uses the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,

@@ -4,9 +4,9 @@ use taceva_core::{Point, Pose};
 
 use super::{Carried, RigFile, SignedAxes};
 
-/// Shortest jog that defines a direction, in mm.
+/// Least distance of a jog that defines a direction, in mm. A jog is a motion of the robot by hand controls.
 const SHORTEST_MM: f64 = 5.0;
-/// Greatest distance of the end of a jog from an axis of the base, in mm.
+/// Greatest distance between the end of a jog and the axis of the base that it follows, in mm.
 const RESIDUAL_MM: f64 = 0.5;
 /// Greatest rotation of the tool between two places, in degrees.
 const TURN_DEG: f64 = 0.5;
@@ -28,26 +28,26 @@ const TURN_DEG: f64 = 0.5;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jogged {
-    /// The tip just touches the middle of the gel.
+    /// Pose while the tip just touches the middle of the gel.
     pub middle: Pose,
-    /// The tip is displaced from the middle along x of the sensor.
+    /// Pose after a jog from the middle along x of the sensor.
     pub along_x: Pose,
-    /// The tip is displaced from the middle along y of the sensor.
+    /// Pose after a jog from the middle along y of the sensor.
     pub along_y: Pose,
 }
 
-/// Frame computed from three places.
+/// Origin and axes of a robot, computed from three jogged places.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Taught {
     /// `origin_mm` of the rig file.
     pub origin_mm: [f64; 3],
     /// `axes` of the robot in the rig file.
     pub axes: SignedAxes,
-    /// Distance between the end of a jog and its axis, in mm; the greater distance of both jogs.
+    /// Distance between the end of a jog and the base axis that it follows, in mm: the greater of both jogs.
     pub residual_mm: f64,
 }
 
-/// Reasons why three places define no frame.
+/// Reasons why three jogged places define no origin and axes.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum TeachError {
     /// The jog is too short.
@@ -55,7 +55,7 @@ pub enum TeachError {
         "the jog along {axis} is {way_mm:.2} mm long, expected at least {SHORTEST_MM} mm: jog farther"
     )]
     Short {
-        /// Axis of the sensor.
+        /// Axis of the sensor along which the jog was made.
         axis: char,
         /// Length of the jog, in mm.
         way_mm: f64,
@@ -65,9 +65,9 @@ pub enum TeachError {
         "the jog along {axis} ends {residual_mm:.2} mm off the nearest axis of the base, expected at most {RESIDUAL_MM} mm: turn the sensor parallel to the base, or jog along one axis of the base only"
     )]
     Askew {
-        /// Axis of the sensor.
+        /// Axis of the sensor along which the jog was made.
         axis: char,
-        /// Distance from the nearest axis of the base, in mm.
+        /// Distance of the end of the jog from the nearest axis of the base, in mm.
         residual_mm: f64,
     },
     /// Both jogs follow the same axis.
@@ -80,9 +80,9 @@ pub enum TeachError {
         "the tool rotated by {turn_deg:.1} degrees during the jog along {axis}: jog without rotating it"
     )]
     Turned {
-        /// Axis of the sensor.
+        /// Axis of the sensor along which the jog was made.
         axis: char,
-        /// Rotation, in degrees.
+        /// Rotation of the tool, in degrees.
         turn_deg: f64,
     },
 }
@@ -130,7 +130,7 @@ impl Jogged {
     }
 }
 
-/// Axis of the base that a jog follows, with its sign, and the distance of its end from the axis, in mm.
+/// Axis of the base that the jog from `from` to `to` follows, with the sign. Also the distance in mm between the end of the jog and that axis.
 fn way(from: &Pose, to: &Pose, axis: char) -> Result<((usize, f64), f64), TeachError> {
     let (one, other) = (&from.position, &to.position);
     let way = [
@@ -165,7 +165,7 @@ fn way(from: &Pose, to: &Pose, axis: char) -> Result<((usize, f64), f64), TeachE
 }
 
 impl RigFile {
-    /// Text of the file with the origin and axes of `taught`, otherwise unchanged. `None` if the file has no robot.
+    /// Returns the text of the file with the origin and axes of `taught` written into it. `None` if the file has no robot.
     pub fn with_taught(&self, taught: &Taught) -> Option<String> {
         let robot = self.robot.as_ref()?;
         let text = self.text.whole();
@@ -186,7 +186,7 @@ impl RigFile {
     }
 }
 
-/// Byte offset after the array at the start of `text`; `None` if it has no end.
+/// Byte offset after the array at the start of `text`; `None` if the array has no end.
 fn end_of_array(text: &str) -> Option<usize> {
     let mut is_comment = false;
     for (at, letter) in text.char_indices() {

@@ -7,7 +7,7 @@ use super::latency::insert_after;
 use super::{Check, RigFile};
 use crate::text::{SceneError, Setting};
 
-/// Comparison of the change of Fz under a known weight with m·g, as stored in a rig file. It gets no further field.
+/// Comparison of the change of Fz under a known mass m with its weight m·g, as stored in a rig file. It gets no further field.
 ///
 /// ```
 /// use taceva_protocol::{RigFile, Weighing};
@@ -34,7 +34,7 @@ pub struct Weighing {
     /// Absolute change of Fz, in N.
     #[serde(rename = "measured_N")]
     pub measured_n: f64,
-    /// Greatest accepted difference, in N.
+    /// Greatest accepted difference between expected and measured change, in N.
     #[serde(rename = "tolerance_N")]
     pub tolerance_n: f64,
     /// Day of the comparison, in UTC.
@@ -42,7 +42,7 @@ pub struct Weighing {
 }
 
 impl Weighing {
-    /// True if the change agrees with the weight.
+    /// True if the measured change of Fz agrees with the weight within the tolerance.
     pub fn is_right(&self) -> bool {
         (self.measured_n - self.expected_n).abs() <= self.tolerance_n
     }
@@ -79,7 +79,7 @@ impl Check<'_> {
 }
 
 impl RigFile {
-    /// Text of the file with `weighing`, otherwise unchanged. `None` without a transducer, or if no line can be inserted after `driver` in its table.
+    /// Text of the file with `weighing` written into it. `None` if the file has no transducer, or if its table takes no line after `driver`.
     pub fn with_weighing(&self, weighing: &Weighing) -> Option<String> {
         let force = self.force.as_ref()?;
         let line = weighing.line();

@@ -1,8 +1,8 @@
-//! Interpolates force and pose to the time of a frame, because the three are read one after another.
+//! Interpolates force and pose to the time of a frame, because force, pose and frame are read one after another.
 
 use taceva_core::{Degree, Millimetre, Newton, NewtonMillimetre, Point, Pose, Rotation, Wrench};
 
-/// Force and pose that were read together.
+/// Force and pose that were read in direct succession.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Look {
     pub(crate) wrench: Wrench,
@@ -14,13 +14,13 @@ pub(crate) struct Look {
 }
 
 impl Look {
-    /// Earliest time at which both force and pose are current.
+    /// Later one of the times of force and pose, in s. From this time on, both are known.
     pub(crate) fn since_s(&self) -> f64 {
         self.wrench_s.max(self.pose_s)
     }
 }
 
-/// Force and pose at `at_s`, interpolated between two readings. Outside the interval between them, the nearer reading.
+/// Force and pose at the time `at_s`, interpolated between two readings. Outside the interval between them, the nearer reading applies.
 pub(crate) fn between(before: &Look, after: &Look, at_s: f64) -> (Wrench, Pose) {
     let wrench = Mix::new(before.wrench_s, after.wrench_s, at_s);
     let pose = Mix::new(before.pose_s, after.pose_s, at_s);
@@ -30,7 +30,7 @@ pub(crate) fn between(before: &Look, after: &Look, at_s: f64) -> (Wrench, Pose) 
     )
 }
 
-/// Force at `at_s`, interpolated between two readings, each with its time in s. Outside the interval between them, the nearer reading.
+/// Force at `at_s`, interpolated between two readings, each with its time in s. Outside the interval between them, the nearer reading applies.
 ///
 /// ```
 /// use taceva_core::{Newton, Wrench};
@@ -47,7 +47,7 @@ pub fn wrench_between(before: (&Wrench, f64), after: (&Wrench, f64), at_s: f64) 
 struct Mix(f64);
 
 impl Mix {
-    /// Computes the weight in whole nanoseconds, as clocks do. The time of day then does not change the last bits.
+    /// Computes the weight in whole nanoseconds, as clocks do. Rounding of large times then does not change the result.
     fn new(before_s: f64, after_s: f64, at_s: f64) -> Mix {
         let [span_ns, part_ns] = [after_s, at_s].map(|time_s| ((time_s - before_s) * 1e9).round());
         if span_ns > 0.0 {
@@ -57,7 +57,7 @@ impl Mix {
         }
     }
 
-    /// Interpolated value. At both ends, it is exactly the given value.
+    /// Interpolated value. At either end of the interval, it is exactly the value of that end.
     fn of(&self, before: f64, after: f64) -> f64 {
         before * (1.0 - self.0) + after * self.0
     }

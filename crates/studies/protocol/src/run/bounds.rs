@@ -1,11 +1,11 @@
-//! Workspace of the tip. The box is convex, so a straight line between two of its places is inside.
+//! Workspace of the tip. The workspace is a convex box, so a straight line between two places inside stays inside.
 
 use taceva_core::{Footprint, Nanometre, Pose};
 
 use super::error::StopCause;
 use crate::plan::Plan;
 
-/// Workspace of a plan, in mm of the sensor frame.
+/// Places that the tip may reach during a plan: a box in the sensor frame, in mm.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
     half_x: f64,
@@ -14,12 +14,12 @@ pub(super) struct Bounds {
     deepest: f64,
 }
 
-/// Rounding error of the sum of a few lengths, in mm.
+/// Tolerance for rounding errors in the sum of a few lengths, in mm.
 const ROUNDING_MM: f64 = 1e-9;
 
 impl Bounds {
-    /// Workspace over the footprint and the shears of `plan`, from `height_mm` above the clearance down to the greatest depth below the search.
-    /// `None` if the plan moves nothing.
+    /// Workspace of `plan`. Sideways, the footprint plus the greatest shear. Upwards, `height_mm` above the clearance. Downwards, the greatest depth
+    /// below the lowest surface of the search. `None` if the plan moves nothing.
     pub(super) fn of(plan: &Plan, height_mm: f64) -> Option<Bounds> {
         let [half_x, half_y] = plan.footprint.as_ref().map(Footprint::half_extent)?;
         let shear = plan
@@ -70,7 +70,7 @@ mod tests {
     use crate::scene::Scene;
     use crate::source::SourceInfo;
 
-    /// Plan with half extents of 8 mm and 10 mm and shears of up to 0.25 mm. Clearance is 2 mm, search 0.5 mm, depth 1 mm.
+    /// Plan on a footprint with half extents of 8 mm and 10 mm, and shears of up to 0.25 mm. Clearance is 2 mm, search 0.5 mm, greatest depth 1 mm.
     fn plan() -> Plan {
         let scene = Scene::parse("small", SMALL).expect("a scene");
         let source = SourceInfo::Rig(Box::new(rig_of(sensor(), Axes::FORCE)));

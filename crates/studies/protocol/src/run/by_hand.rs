@@ -1,4 +1,4 @@
-//! Manual steps of a press. The robot is halted while the operator is asked.
+//! Manual steps before a press. The robot is halted while the operator is asked.
 
 use taceva_core::Fault;
 
@@ -51,7 +51,7 @@ impl Run<'_> {
             .any(|question| self.skipped.contains(question))
     }
 
-    /// Asks the operator for clearance after a skipped step, before the next motion. Until then hands may be within reach, and the robot remains halted.
+    /// Asks the operator after a skipped step whether the robot may move. Until the answer, hands may be within reach, so the robot remains halted.
     fn ask_to_go_on(&mut self, planned: &PlannedPress) -> Result<(), RunError> {
         let specimen = planned.press.specimen;
         let is_changed = self.mounted != Some(specimen) && self.is_held_by_changer(specimen);
@@ -127,7 +127,7 @@ impl Run<'_> {
         Ok(answer)
     }
 
-    /// Continues after a fault of the robot. The operator acknowledges the fault at the robot, and then the tip leaves the gel.
+    /// Continues after `fault` of the robot, once the operator has acknowledged it at the robot. The tip then leaves the gel.
     pub(super) fn go_on_after(&mut self, fault: Fault, error: RunError) -> Result<(), RunError> {
         let Some(operator) = &mut self.operator else {
             return Err(error);
@@ -155,7 +155,7 @@ mod tests {
     use crate::run::time::Cancel;
     use crate::run::{Controls, Devices, Left, Mode, RunSpec};
 
-    /// Test operator. Records the height of the tip and the state of the halt at each question, and may move the tip by hand to a height.
+    /// Test operator. At each question, records the height of the tip and whether the robot is halted. May move the tip by hand to a height.
     struct Person(Rig, Answer, Vec<(f64, bool)>, Option<f64>);
 
     impl Operator for Person {

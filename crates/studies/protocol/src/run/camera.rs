@@ -14,7 +14,7 @@ use super::tip::{Step, Tip};
 use freeze::Freeze;
 use moment::Moment;
 
-/// Number of lost, damaged or outdated frames after which the run stops.
+/// Number of failed attempts at one frame after which the run stops. An attempt fails if the frame is lost, damaged or outdated.
 const FRAME_TRIES: u32 = 10;
 /// Deadline for one frame.
 const FRAME_DEADLINE: Deadline = Deadline::after(Duration::from_secs(1));
@@ -40,7 +40,7 @@ impl<'a> Camera<'a> {
         self.freeze.leave();
     }
 
-    /// First frame captured at or after `from_s`. Fails if the frame is equal to the previous frame although the force changed.
+    /// First valid frame captured at or after `from_s`. Fails if the camera repeats an earlier frame although the force changed.
     pub(super) fn frame(
         &mut self,
         from_s: f64,

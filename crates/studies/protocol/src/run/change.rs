@@ -14,13 +14,13 @@ use crate::plan::PlannedPress;
 enum Unmounted {
     /// The changer failed. The robot is halted, and the mounted specimen is unknown.
     Failed(StopCause),
-    /// The robot did not retreat, or could not be released.
+    /// The robot did not retreat, or its halt could not be lifted.
     Robot(StopCause),
 }
 
 impl Run<'_> {
-    /// Mounts the specimen of `planned` by the changer, if the changer contains it and must move. If the changer fails and an operator is present, returns the
-    /// reason, and the changer is not used again.
+    /// Mounts the specimen of `planned` with the changer, if the changer holds it and has moving parts. If the changer fails and an operator is
+    /// present, returns the reason, and the changer is not used again.
     ///
     /// # Errors
     /// [`RunError`] without an operator if the changer fails or does not contain the specimen. The robot is halted above the gel.
@@ -65,7 +65,7 @@ impl Run<'_> {
         }
     }
 
-    /// True if a changer contains `specimen`.
+    /// True if the changer holds `specimen`.
     pub(super) fn is_held_by_changer(&self, specimen: Specimen) -> bool {
         let changer = self.specimens.as_ref();
         changer.is_some_and(|changer| changer.holds(specimen))
@@ -88,7 +88,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Records the mounted specimen, and resets the zero and the surface height.
+    /// Records the mounted specimen, and forgets the zero of the force and the surface height.
     pub(super) fn has_mounted(&mut self, specimen: Specimen) {
         self.mounted = Some(specimen);
         // Another specimen changes the load on the transducer.

@@ -1,4 +1,4 @@
-//! Raises the tip before an operator changes something below it.
+//! Raising of the tip before an operator changes a part below it.
 
 use taceva_core::{ForceTransducer, Robot};
 
@@ -17,9 +17,9 @@ const REPEATED_MM: f64 = 0.1;
 
 /// Raises the tip straight to the travel height if it is lower. Halts the robot there, out of reach of hands. Returns true if the tip moved.
 ///
-/// If `robot` is a name, the operator enables that robot before it moves. A tip that is high enough is only halted. `supervisor` watches this robot
-/// and receives every force reading, as under [`run_guarded`](super::run_guarded). With an enabling switch, nothing moves until the switch is held,
-/// for up to `patience_s`.
+/// If `robot` is given, the operator must enable the robot of this name before it moves. A robot whose tip is high enough is only halted.
+/// `supervisor` watches `arm` and receives every force reading, as under [`run_guarded`](super::run_guarded). With an enabling switch, nothing moves
+/// until the switch is held, for up to `patience_s`.
 ///
 /// # Errors
 /// [`RunError`] for the causes of [`run`](super::run).
@@ -80,7 +80,7 @@ pub fn raise(
     Ok(true)
 }
 
-/// Asks the operator to enable `robot` before its first motions, which `way` names.
+/// Asks the operator to enable `robot` before its first motions, which the text `way` describes.
 pub(super) fn enable(
     robot: &str,
     way: String,
@@ -98,7 +98,7 @@ pub(super) fn enable(
     }
 }
 
-/// Error before any motion. The tip has not moved.
+/// Builds the error for a run that ended before any motion.
 fn unmoved(cause: StopCause) -> RunError {
     RunError {
         press: None,
@@ -118,7 +118,7 @@ impl Tip<'_> {
         self.here().position.z.0 <= REPEATED_MM - self.pace.clearance_mm
     }
 
-    /// Halts the robot, which is away from the gel, until it is explicitly released.
+    /// Halts the robot, whose tip is above the gel, until it is released by a call.
     pub(super) fn hold(&mut self) -> Step<()> {
         self.robot.halt()?;
         self.stands_clear = true;

@@ -10,24 +10,19 @@ use super::surface_fit::{DepthForce, surface};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct DepthZero {
-    /// Height of the gel in the sensor frame, positive into the gel. If no surface is fitted, the height of the first contact.
+    /// Height of the gel in the sensor frame, positive into the gel. If no surface is fitted, this is the height of the first contact.
     pub height: Millimetre,
     /// Standard uncertainty of the height, or the reason why it is unknown.
     pub uncertainty: Result<Millimetre, ZeroUnknown>,
 }
 
-/// Reason for a zero without a standard uncertainty.
-///
-/// ```
-/// use taceva_protocol::ZeroUnknown;
-/// assert_eq!(ZeroUnknown::NoRise.to_string(), "the force does not rise with depth");
-/// ```
+/// Reason why the standard uncertainty of a depth zero is unknown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ZeroUnknown {
     /// Depths are measured from the first contact, which is the default.
     CountedFromContact,
-    /// There are too few readings before and in contact.
+    /// There are too few readings near the first contact.
     FewReadings {
         /// Number of readings.
         readings: usize,
@@ -39,7 +34,7 @@ pub enum ZeroUnknown {
 }
 
 impl DepthZero {
-    /// The zero of a press with its first contact at `contact_mm`, fitted from the `readings` at most `window_mm` above it.
+    /// Depth zero of a press with its first contact at `contact_mm`, fitted to the `readings` from `window_mm` above the contact on.
     pub(super) fn of(readings: &[DepthForce], contact_mm: f64, window_mm: f64) -> DepthZero {
         match surface(readings, contact_mm, window_mm) {
             Ok(surface) => DepthZero {
@@ -50,7 +45,7 @@ impl DepthZero {
         }
     }
 
-    /// The first contact at `contact_mm` as the zero, because no surface is fitted.
+    /// Zero of the depths at the first contact, at `contact_mm`, because no surface is fitted for the reason `unknown`.
     pub(super) fn at_contact(contact_mm: f64, unknown: ZeroUnknown) -> DepthZero {
         DepthZero {
             height: Millimetre(contact_mm),

@@ -14,7 +14,7 @@ pub struct Devices<'a> {
     pub sensor: Option<&'a mut dyn Sensor>,
     /// Lighting; `None` if the sensor sets the light.
     pub lighting: Option<&'a mut dyn Lighting>,
-    /// Changer of specimens; `None` if the operator or nobody changes specimens.
+    /// Changer of specimens; `None` if an operator changes them, or if the plan has only one specimen.
     pub specimens: Option<&'a mut dyn SpecimenChanger>,
 }
 
@@ -26,12 +26,12 @@ pub trait SpecimenChanger {
     /// [`DriverError`] if the specimen is missing or was not mounted in time.
     fn mount(&mut self, specimen: Specimen, deadline: Deadline) -> Result<(), DriverError>;
 
-    /// True if the changer contains `specimen`. The operator mounts other specimens.
+    /// True if the changer has `specimen` ready to mount. The operator mounts other specimens.
     fn holds(&self, _specimen: Specimen) -> bool {
         true
     }
 
-    /// Maximum duration of a change, during which the robot is halted. `None` for a changer without moving parts, such as a simulated bench.
+    /// Longest time for a change, during which the robot is halted. `None` for a changer without moving parts, such as a simulated bench.
     fn patience(&self) -> Option<Duration> {
         None
     }

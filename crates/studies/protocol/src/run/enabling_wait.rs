@@ -13,11 +13,11 @@ use crate::content_id::ContentId;
 /// Interval between readings of the switch.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Operator for the enabling switch, and the maximum wait.
+/// Operator who holds the enabling switch, and the longest time to wait for it.
 pub(super) struct Attendant<'c> {
     pub(super) operator: Option<&'c mut dyn Operator>,
     pub(super) events: &'c mut dyn FnMut(&Event),
-    /// Maximum wait, in s. Ignored on a rig without a switch.
+    /// Longest time to wait for the switch, in s. Ignored on a rig without a switch.
     pub(super) patience_s: f64,
 }
 
@@ -47,8 +47,8 @@ impl Tip<'_> {
         }
     }
 
-    /// Error that ends a run, after the tip was raised above the gel if possible. The tip moves only while the enabling switch is held. After each release,
-    /// the wait and the attempt are repeated.
+    /// Raises the tip above the gel if possible, and returns the error that ends the run. The tip moves only while the enabling switch is held. After
+    /// each release, the wait and the attempt are repeated.
     pub(super) fn abandoned(&mut self, cause: StopCause, mut attendant: Attendant<'_>) -> RunError {
         if let StopCause::Tripped(trip) = cause {
             (attendant.events)(&Event::Halted(trip));
@@ -125,7 +125,7 @@ impl Run<'_> {
             .map_err(|cause| RunError { press, cause, left })
     }
 
-    /// Error that ends the run, after the tip was raised above the gel if possible.
+    /// Raises the tip above the gel if possible, and returns the error that ends the run.
     pub(super) fn abandoned(&mut self, press: Option<ContentId>, cause: StopCause) -> RunError {
         let attendant = Attendant {
             operator: match &mut self.operator {

@@ -16,9 +16,9 @@ use crate::text::SceneError;
 pub struct RunError {
     /// Unfinished press, if one had begun. It will be repeated from its start.
     pub press: Option<ContentId>,
-    /// Cause.
+    /// Cause of the stop.
     pub cause: StopCause,
-    /// Place of the tip.
+    /// Place of the tip after the stop.
     pub left: Left,
 }
 
@@ -54,7 +54,7 @@ pub enum StopCause {
     Frames {
         /// Number of tries.
         attempts: u32,
-        /// Last error of the sensor; `None` if it returned only outdated frames.
+        /// Last error of the sensor; `None` if the sensor returned only outdated frames.
         last: Option<String>,
     },
     /// A frame is bit-equal to the previous frame although the force changed.
@@ -78,33 +78,33 @@ pub enum StopCause {
         "force readings arrive up to {reaction_ms:.0} ms late on this machine, and the tip travels {overshoot_mm:.3} mm in that time: expected at most {greatest_mm:.3} mm (30 % of the allowed depth); stop other programs, run with `chrt -f 10 taceva run …` if you do not yet, or lower `speed_mm_s` of the scene to {speed_mm_s:.2}"
     )]
     SlowGuard {
-        /// Time from an exceeded limit to the halt, in ms: the 99.9th percentile.
+        /// Time from an exceeded limit to the halt, in ms: the 99.9th percentile over the timed readings.
         reaction_ms: f64,
-        /// Travel of the tip until it is at rest, in mm.
+        /// Travel of the tip from the exceeded limit until it is at rest, in mm.
         overshoot_mm: f64,
-        /// Greatest allowed travel, in mm.
+        /// Greatest allowed travel beyond a limit, in mm.
         greatest_mm: f64,
-        /// Greatest allowed speed in contact, in mm/s.
+        /// Greatest speed in contact at which the travel would be allowed, in mm/s.
         speed_mm_s: f64,
     },
     /// In the gentle touch before the first press, force or frames did not respond as expected of a gel.
     #[error("{0}")]
     Touch(TouchFault),
-    /// In a press, the shear force changed against the tangential displacement of the tip, unlike in the gentle touch.
+    /// In a press, the shear force changed opposite to the sideways motion of the tip, unlike in the gentle touch.
     #[error("{0}")]
     Shear(ShearFault),
     /// The zero of the transducer changed too far during a press.
     #[error("{0}")]
     ZeroStep(Box<ZeroStep>),
-    /// The enabling switch was not held within the wait of the rig file.
+    /// The enabling switch was not held within the time that the rig file allows.
     #[error(
         "the enabling switch was not held within {patience_s} s: hold it and continue with `--resume`; `patience_s` of [operator] sets this wait"
     )]
     Unheld {
-        /// Maximum wait, in s.
+        /// Longest time to wait, in s.
         patience_s: f64,
     },
-    /// The plan needs an item that the run lacks.
+    /// The plan needs a device, person or setting that the run lacks.
     #[error("the plan needs {0}")]
     Missing(String),
 }
@@ -121,7 +121,7 @@ impl StopCause {
         )
     }
 
-    /// True if force, pose or guard was too late, as on a busy machine with emulated devices.
+    /// True if force, pose or guard was too late. Emulated devices on a busy machine cause such delays.
     pub(super) fn is_late(&self) -> bool {
         matches!(
             self,
@@ -135,7 +135,7 @@ impl StopCause {
         matches!(self, StopCause::Tripped(Trip::Released))
     }
 
-    /// Fault with which a device stopped itself, if any. The operator must acknowledge it at the device before anything moves again.
+    /// Fault for which a device stopped itself, if any. The operator must acknowledge it at the device before anything moves again.
     pub fn fault(&self) -> Option<Fault> {
         match self {
             StopCause::Device(error) => error.fault(),

@@ -21,7 +21,7 @@ pub enum Event {
     Mounted(Specimen),
     /// The light was set.
     Lit(String),
-    /// A press is left for another run because the operator skipped a step that it needs.
+    /// A press is left for another run because the operator skipped a manual step that the press needs.
     Skipped(ContentId),
     /// A press begins.
     Approaching {
@@ -32,10 +32,10 @@ pub enum Event {
     },
     /// The gel was touched.
     Contact {
-        /// Height of the contact in the sensor frame, in mm, positive into the gel.
+        /// Height of the contact along z of the sensor frame, in mm, positive into the gel.
         height: Millimetre,
     },
-    /// A frame was lost, damaged or stamped by another clock, so another frame is captured. A frame captured before the contact is replaced without this event.
+    /// A frame was lost, damaged or stamped by another clock, and is captured again. A frame captured too early causes no such event.
     FrameRetried,
     /// A frame was bit-equal to the previous frame although the force changed. Its press is aborted.
     FrameFrozen,
@@ -61,7 +61,7 @@ pub enum Event {
         /// Number of interruptions of this press.
         times: u32,
     },
-    /// A press is finished and durable.
+    /// A press is finished and safely stored.
     Finished {
         /// Id of the press.
         press: ContentId,

@@ -4,14 +4,14 @@ use std::fmt;
 
 use taceva_core::{Newton, Wrench};
 
-/// Names of the components in messages.
+/// Names of the force components in messages.
 const COMPONENTS: [&str; 3] = ["Fx", "Fy", "Fz"];
 
-/// Zero of the transducer before and after a press, in the frame of the sensor, as the transducer reports it.
+/// Force in the air that the transducer reports before and after a press, in N in the frame of the sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ForceZero {
-    /// Time of the second measurement, in s, on the clock of the samples.
+    /// Time of the measurement after the press, in s, on the clock of the samples.
     pub at_s: f64,
     /// Force in the air before the press.
     pub before: [Newton; 3],
@@ -19,13 +19,13 @@ pub struct ForceZero {
     pub after: [Newton; 3],
 }
 
-/// Change of the zero during a press that exceeds the limit. The forces of the press are uncertain by this change.
+/// Change of the zero of the force during a press, beyond its limit. The forces of the press are uncertain by this change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ZeroStep {
     /// The zero before and after the press.
     pub zero: ForceZero,
-    /// Greatest allowed change of a component, in N.
+    /// Greatest allowed change of each force component, in N.
     pub limit_n: f64,
 }
 
@@ -38,7 +38,7 @@ impl ForceZero {
         }
     }
 
-    /// Fault if a component changed by more than `limit_n`. NaN counts as a change.
+    /// Returns the fault if a force component changed by more than `limit_n`. NaN counts as a change.
     pub(super) fn step(self, limit_n: f64) -> Option<ZeroStep> {
         let is_same = |axis: usize| self.change_n(axis).abs() <= limit_n;
         let step = ZeroStep {
@@ -52,7 +52,7 @@ impl ForceZero {
         self.after[axis].0 - self.before[axis].0
     }
 
-    /// Axis of the component that changed most.
+    /// Index of the force component that changed most.
     fn changed(&self) -> usize {
         let size = |axis: usize| self.change_n(axis).abs();
         (0..3).fold(0, |most, axis| match size(axis) > size(most) {

@@ -13,12 +13,12 @@ use taceva_core::Limit;
 pub enum Trip {
     /// The depth exceeds its limit.
     Depth {
-        /// Depth measured from the zero of the press.
+        /// Depth below the depth zero of the press.
         depth_mm: f64,
         /// Greatest allowed depth.
         limit_mm: f64,
     },
-    /// The normal force exceeds its limit, in pressing or pulling.
+    /// The normal force exceeds its limit, whether the tip presses or pulls.
     NormalForce {
         /// Normal force.
         force_n: f64,
@@ -32,11 +32,11 @@ pub enum Trip {
         /// Greatest allowed shear force.
         limit_n: f64,
     },
-    /// A force occurs out of contact.
+    /// A force is measured while the tip is out of contact.
     UnexpectedContact {
-        /// Force out of contact.
+        /// Force measured out of contact.
         force_n: f64,
-        /// True if the force exceeds the threshold of motions in the air. False if it exceeds the limit of the normal force while the tip leaves the gel.
+        /// True if the force exceeds the threshold for motions through the air. False if it exceeds the limit of a retreat.
         is_in_air: bool,
     },
     /// The force increases faster than any gel allows.
@@ -46,14 +46,14 @@ pub enum Trip {
     },
     /// The transducer is saturated, so the true force is unknown.
     Saturated {
-        /// The reading.
+        /// Force of the saturated reading.
         force_n: f64,
     },
-    /// A reading is not finite.
+    /// A reading of force or pose is NaN or infinite.
     NotFinite,
-    /// Readings are bit-equal although the tip has moved.
+    /// Force readings are bit-equal although the tip has moved.
     Frozen {
-        /// Number of equal readings.
+        /// Number of equal force readings in a row.
         readings: u32,
     },
     /// The last force is too old.
@@ -78,7 +78,7 @@ pub enum Trip {
 }
 
 impl Trip {
-    /// Limit of the gel that was reached with healthy signals. The press ends, and the run continues. `None` for other reasons.
+    /// Limit of the gel that the tip reached with healthy signals; `None` for other reasons. Such a limit ends the press, not the run.
     pub fn limit(self) -> Option<Limit> {
         match self {
             Trip::Depth { .. } => Some(Limit::Depth),

@@ -10,14 +10,14 @@ use super::tip::{Step, Tip};
 use crate::plan::PlannedPress;
 use crate::press::Waypoint;
 
-/// Maximum number of draw-backs at one waypoint, each at least one segment long. Noise at the limit needs one or two.
+/// Greatest number of times that the tip draws back at one waypoint. Each time is at least one segment long. Noise at the limit needs one or two.
 const DRAW_BACKS: u32 = 32;
 
 impl Run<'_> {
     /// Visits the waypoints. Their depths are measured from `height_mm`.
     ///
-    /// If a limit of the gel stops the tip, the tip draws back until it may rest. The sample of this waypoint is recorded there. Deeper waypoints are
-    /// skipped. Waypoints of the unloading phase are visited from this depth.
+    /// If a limit of the gel stops the tip, the tip draws back until the limit is respected. The sample of this waypoint is recorded there. Deeper
+    /// waypoints are skipped. Waypoints of the unloading branch are visited from this depth.
     pub(super) fn indent(
         &mut self,
         planned: &PlannedPress,
@@ -55,7 +55,7 @@ impl Run<'_> {
         Ok(ended_by.map_or(PressOutcome::Complete, PressOutcome::Limited))
     }
 
-    /// Moves to a waypoint, unless a limit was reached there, and records its sample.
+    /// Moves to the waypoint of `spot`, and records its sample. If `spot` names a limit, the tip stays.
     fn visit(&mut self, planned: &PlannedPress, spot: Spot, gathered: &mut Gathered) -> Step<()> {
         let press = &planned.press;
         let waypoint = usize::try_from(spot.number)
@@ -80,7 +80,7 @@ impl Run<'_> {
         Ok(limit)
     }
 
-    /// Records the sample of an unreachable waypoint as close to the waypoint as the tip may rest. Returns the depth there, in mm.
+    /// Draws the tip back from an unreachable waypoint until it may rest, and records the sample there. Returns the depth of the tip, in mm.
     fn visit_at_limit(
         &mut self,
         planned: &PlannedPress,
@@ -100,14 +100,14 @@ impl Run<'_> {
     }
 }
 
-/// Treatment of a waypoint after a limit.
+/// Treatment of a waypoint after a limit of the gel stopped the press.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Visit {
     /// Skip the waypoint.
     Not,
-    /// Turning point: record the sample at the depth that was reached.
+    /// Record the sample of this turning point at the depth that was reached.
     WhereItIs,
-    /// Visit the waypoint.
+    /// Visit the waypoint as planned.
     Waypoint,
 }
 

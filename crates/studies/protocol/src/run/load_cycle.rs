@@ -8,11 +8,11 @@ use super::halt_reason::Trip;
 use super::tip::{SPARE_SEGMENTS, Step, Tip};
 use crate::press::LoadCycle;
 
-/// Rounding error of a depth, in mm.
+/// Tolerance for the rounding error of a depth, in mm.
 const ROUNDING_MM: f64 = 1e-9;
 
 impl Tip<'_> {
-    /// Makes `cycle` at `place`, from the first contact at `contact_mm` to the last motion under load.
+    /// Makes the load cycle `cycle` at `place`, from the first contact at `contact_mm` to the last motion under load.
     pub(super) fn load(
         &mut self,
         place: [Nanometre; 2],
@@ -78,7 +78,7 @@ mod tests {
     use crate::run::rig::{CONTACT_MM, Rig, SEGMENT_MM, nothing, with_tip};
     use crate::scene::WearLoad;
 
-    /// Outcome of one compression to `force` µN on a gel of `stiffness_n_mm`, and the greatest depth of the tip below the gel, in mm.
+    /// Compresses a gel of `stiffness_n_mm` once to `force` µN. Returns the outcome of the press, and the greatest depth of the tip, in mm.
     fn compressed(stiffness_n_mm: f64, force: u32) -> (PressOutcome, f64) {
         let deepest_mm = Arc::new(Mutex::new(0.0_f64));
         let seen = Arc::clone(&deepest_mm);

@@ -2,21 +2,21 @@
 
 use taceva_core::Wrench;
 
-/// Part of the greatest depth that a tip may travel in one motion before it detects contact, without exceeding a limit.
+/// Longest motion before contact is detected, as a share of the greatest depth. Such a motion exceeds no limit.
 const UNFELT_PART: f64 = 0.125;
-/// Longest motion over which the stiffness of a gel is extrapolated, in multiples of the measured depth.
+/// Longest motion for which the measured stiffness of a gel is extrapolated, in multiples of the present depth.
 const KNOWN_DEPTHS: f64 = 2.0;
-/// Upper bound of the mean stiffness over a motion, in multiples of force divided by depth. A sphere (force ∝ depth^1.5) has 2.1 on a motion to three
-/// times the depth. The gel is softer sideways.
+/// Upper bound of the mean stiffness over a motion, in multiples of force divided by depth. A sphere (force ∝ depth^1.5) has a factor of 2.1 if a
+/// motion triples the depth. Sideways the gel is softer.
 const STIFFER: f64 = 3.0;
 
-/// Limits of a gel.
+/// Limits of depth and force on a gel, and the threshold of contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Bearing {
     pub(super) depth_max_mm: f64,
     pub(super) normal_max_n: f64,
     pub(super) shear_max_n: f64,
-    /// Least force that counts as contact.
+    /// Least force that counts as contact, in N.
     pub(super) threshold_n: f64,
 }
 
@@ -38,7 +38,7 @@ impl Felt {
 }
 
 impl Bearing {
-    /// Longest inward or sideways motion of the tip from `depth_mm` under the force `felt`, in mm.
+    /// Longest inward or sideways motion of the tip that exceeds no limit, in mm. It starts at `depth_mm` under the force `felt`.
     pub(super) fn room_mm(&self, depth_mm: f64, felt: &Felt) -> f64 {
         let normal_n = felt.normal_n.abs().max(self.threshold_n);
         let stiffness_n_mm = STIFFER * normal_n / depth_mm.max(0.0);
@@ -48,7 +48,7 @@ impl Bearing {
         by_force_mm.min(by_depth_mm).max(0.0)
     }
 
-    /// Longest motion of the tip before contact is detected, in mm.
+    /// Longest motion of the tip that is allowed before contact is detected, in mm.
     pub(super) fn unfelt_mm(&self) -> f64 {
         UNFELT_PART * self.depth_max_mm
     }

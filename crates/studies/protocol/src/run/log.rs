@@ -18,14 +18,14 @@ pub trait PressLog {
     /// Any failure to store the press safely. The run then stops, and the press counts as not finished.
     fn append(&mut self, record: &PressRecord) -> Result<(), SinkError>;
 
-    /// Stores a contact-free reference frame in the reference light. It precedes the first press with frames of each unit, and is repeated with this press.
+    /// Stores a frame of the untouched gel in the reference light, before the first press with frames of each unit. A repeated press repeats it.
     ///
     /// # Errors
     /// Any failure to store the frame safely. The run then stops.
     fn untouched(&mut self, frame: &Frame) -> Result<(), SinkError>;
 
-    /// Stores the zero of the transducer in a discarded attempt at `press`, during which the zero changed too far. The zero of a finished press is in
-    /// [`PressRecord::force_zero`].
+    /// Stores the zero of the transducer before and after a discarded attempt at `press`, during which the zero changed too far. The zero of a
+    /// finished press is in [`PressRecord::force_zero`].
     ///
     /// # Errors
     /// Any failure to store the zero. The run then stops.
@@ -51,14 +51,14 @@ pub struct PressRecord {
     pub press: ContentId,
     /// Outcome of the press.
     pub outcome: PressOutcome,
-    /// Height relative to which depths are measured; `None` for a press that does not indent or has no contact.
+    /// Height relative to which depths are measured; `None` for a press without waypoints or without contact.
     pub zero: Option<DepthZero>,
     /// Zero of the transducer before and after the press; `None` if the transducer sets its own zero.
     pub force_zero: Option<ForceZero>,
     /// Samples in order, named `<press>/<number>` by waypoint or frame. Waypoints that a limited press skipped have no sample.
     ///
-    /// Truth holds the channels of the plan, in its order. `Pz` is the depth from the zero of the press. `surface_z` is the height of the felt surface in
-    /// the sensor's frame, positive into the gel. A press gives one of the two. A sample that a limit stopped before its waypoint names the limit and
-    /// has no `depth_step`.
+    /// The truth of a sample has the channels of the plan, in that order. `Pz` is the depth below the depth zero of the press. `surface_z` is the
+    /// height of the touched surface in the sensor frame, positive into the gel. A press gives one of these two. A sample that a limit stopped before
+    /// its waypoint names the limit and has no `depth_step`.
     pub samples: Vec<Sample>,
 }

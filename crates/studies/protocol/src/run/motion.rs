@@ -16,7 +16,7 @@ impl Tip<'_> {
         })
     }
 
-    /// Makes one straight motion at the contact speed. Uses an expiring motion if the robot supports it. Such a motion stops by itself if the host fails.
+    /// Makes one straight motion at the contact speed. If the robot supports it, the motion is expiring: it stops by itself if the host fails.
     pub(super) fn go_expiring(&mut self, target: Pose) -> Step<()> {
         let speed = self.pace.contact;
         self.go_by(target, speed, |robot, deadline| {

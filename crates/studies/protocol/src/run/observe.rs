@@ -1,4 +1,4 @@
-//! Frame, pose and force at one moment.
+//! Observation of frame, pose and force at one moment.
 
 use taceva_core::{Frame, Pose, Stamp, Wrench};
 
@@ -7,7 +7,7 @@ use super::camera::Camera;
 use super::event::Event;
 use super::tip::{Step, Tip};
 
-/// Observation of one moment.
+/// Force, pose and frame at the time of `stamp`.
 pub(super) struct Observed {
     pub(super) wrench: Wrench,
     pub(super) pose: Pose,

@@ -11,7 +11,7 @@ use crate::content_id::ContentId;
 use crate::plan::{Plan, PlannedPress};
 use crate::press::{Motion, Waypoint};
 
-/// Press log in memory: records of presses, and changes of the force zero that exceed the limit.
+/// Press log in memory, with the changes of the force zero that exceeded the limit.
 #[derive(Default)]
 pub(super) struct Memory {
     pub(super) records: Vec<PressRecord>,
@@ -43,7 +43,7 @@ pub(super) struct OnePress {
 }
 
 impl OnePress {
-    /// Presses straight down to `depth` in the middle of a gel with this force, with a plan that `change` modifies.
+    /// Runs one press to `depth` in the middle of a gel, with a plan that `change` modifies. `force` gives the force in N by reading and height.
     pub(super) fn to(
         depth: Nanometre,
         force: impl FnMut(u32, f64) -> Option<f64> + Send + 'static,
@@ -88,7 +88,7 @@ impl OnePress {
         OnePress { log, events, done }
     }
 
-    /// Number of events of a kind.
+    /// Number of recorded events for which `is_it` is true.
     pub(super) fn count(&self, is_it: impl Fn(&Event) -> bool) -> u32 {
         let counts = self.events.iter().map(|event| u32::from(is_it(event)));
         counts.sum()

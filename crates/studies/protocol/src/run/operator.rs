@@ -25,11 +25,11 @@ pub trait Operator {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Question {
-    /// Enable a robot: the operator types its name or presses a button with the name.
+    /// Enable a robot: the operator types the name of the robot or presses a button with this name.
     Enable {
         /// Name of the robot.
         robot: String,
-        /// Next motions of the robot.
+        /// Description of the next motions of the robot.
         way: String,
     },
     /// Mount this specimen on the robot, unrotated.
@@ -38,7 +38,7 @@ pub enum Question {
     Unit(String),
     /// Set this light scene.
     Light(String),
-    /// Check and acknowledge this fault at the robot. The robot then moves again.
+    /// Check and acknowledge this fault at the robot. Afterwards the robot can move again.
     Acknowledge(Fault),
     /// Remove every load from the force transducer.
     Unload,
@@ -49,16 +49,16 @@ pub enum Question {
     },
     /// Jog the tip to this place with the controls of the robot.
     Jog(Spot),
-    /// Do this step by hand instead of the changer, because the changer failed.
+    /// Do a step by hand instead of the changer, because the changer failed.
     Instead {
-        /// The step: [`Mount`](Question::Mount) or [`Unit`](Question::Unit).
+        /// The step of the changer: [`Mount`](Question::Mount) or [`Unit`](Question::Unit).
         of_changer: Box<Question>,
-        /// Reason of the failure.
+        /// Reason why the changer failed.
         why: String,
     },
     /// Remove all hands from the reach of the robot. After a skipped step, the robot continues with presses that need no operator.
     GoOn,
-    /// Continue although the touch differs from the touch of an earlier session of this recording.
+    /// Continue although the gentle touch differs from that of an earlier session of this recording.
     Resume(ChangedTouch),
 }
 
@@ -73,12 +73,12 @@ pub enum Spot {
     AlongY,
 }
 
-/// Difference between a touch and the touch of an earlier session.
+/// Difference between the gentle touch of a session and that of an earlier session.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChangedTouch {
-    /// Change of the height of the gel, in mm. Positive values mean that the surface is farther from the tip.
+    /// Change of the height of the gel, in mm. Above zero, the surface is now farther from the tip.
     pub height_mm: f64,
-    /// Relative change of the force at equal depth.
+    /// Relative change of the force at equal depth: 0.1 for a force that is 10 % greater.
     pub force_part: f64,
     /// Expanded uncertainty of the change of the height, in mm; coverage factor 2.
     pub height_u_mm: f64,

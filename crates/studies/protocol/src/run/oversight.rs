@@ -1,9 +1,9 @@
-//! Guard of a run: its supervisor, and the checks before the first press.
+//! Guard of a run: the supervisor, and the checks before the first press.
 
 use super::reference_touch::SessionSpec;
 use super::supervisor::SharedSupervisor;
 
-/// Guard of a run on a robot that threads watch.
+/// Guard of a run: threads watch the robot while it moves.
 ///
 /// `supervisor` watches the robot of the run. One thread of the caller passes every force reading to it, and another thread passes poses during motions. The
 /// transducer of the run only returns readings of the first thread.
@@ -14,7 +14,7 @@ pub struct Oversight<'a> {
 }
 
 impl<'a> Oversight<'a> {
-    /// Creates a guard without a session, which does not wait for an enabling switch.
+    /// Creates a guard without a session. The guard does not wait for an enabling switch.
     pub fn new(supervisor: SharedSupervisor) -> Oversight<'a> {
         Oversight {
             supervisor,
@@ -23,10 +23,10 @@ impl<'a> Oversight<'a> {
         }
     }
 
-    /// Adds a session on the rig of a rig file, with `patience_s` of that file.
+    /// Adds a session on the rig of a rig file. The longest wait for the enabling switch is that of the file.
     ///
-    /// Before the first press, the operator enables the robot. The tip then moves through the air and touches the gel gently. The touch is compared with the
-    /// rig file and with earlier sessions of the recording.
+    /// Before the first press, the operator enables the robot. The tip then moves through the air and touches the gel gently. The touch is compared
+    /// with the rig file and with earlier sessions of the recording.
     #[must_use]
     pub fn with_session(self, session: SessionSpec<'a>) -> Oversight<'a> {
         Oversight {
@@ -36,7 +36,7 @@ impl<'a> Oversight<'a> {
         }
     }
 
-    /// Sets the maximum wait for the enabling switch to be held, in s.
+    /// Sets the longest time to wait until the enabling switch is held, in s.
     #[must_use]
     pub fn with_patience_s(self, patience_s: f64) -> Oversight<'a> {
         Oversight { patience_s, ..self }

@@ -17,7 +17,7 @@ use crate::press::Motion;
 use crate::scene::DepthOrigin;
 
 impl Run<'_> {
-    /// Makes one press, starting and ending at the travel height. If `untouched` is given, first stores a contact-free frame in it.
+    /// Makes one press, starting and ending at the travel height. If the log `untouched` is given, first stores a frame of the untouched gel there.
     pub(super) fn acquire(
         &mut self,
         planned: &PlannedPress,
@@ -52,7 +52,7 @@ impl Run<'_> {
         })
     }
 
-    /// Sets specimen, light and place.
+    /// Mounts the specimen, sets the light and moves the tip above the place of the press.
     fn prepare(&mut self, planned: &PlannedPress) -> Step<()> {
         let press = &planned.press;
         if self.mounted != Some(press.specimen) {

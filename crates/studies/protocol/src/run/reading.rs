@@ -12,7 +12,7 @@ use super::supervisor::Observation;
 use super::surface_fit::DepthForce;
 use super::tip::{DEADLINE, Step, Tip, is_silent};
 
-/// Deadline of one reading. Reading is retried until the supervisor finds the force stale.
+/// Deadline of one attempt to read a force. Reading is retried until the supervisor finds the force stale.
 pub(super) const READ_DEADLINE: Duration = Duration::from_millis(20);
 /// Delay before the next reading after an outdated reading.
 const LATE_REST: Duration = Duration::from_millis(1);
@@ -20,7 +20,7 @@ const LATE_REST: Duration = Duration::from_millis(1);
 const READ_TRIES: u32 = 64;
 
 impl Tip<'_> {
-    /// Reads force and pose and passes both to the supervisor.
+    /// Reads force and pose of the resting tip, and passes both to the supervisor.
     pub(super) fn look(&mut self) -> Step<Look> {
         let reading = self.read_force()?;
         let asked_s = self.clock.now_s();
@@ -59,8 +59,8 @@ impl Tip<'_> {
 
     /// Reads a force that was measured after this call.
     ///
-    /// The tip rests during the reading, so slow links and filters cost time but no travel. Readings from before the end of the last motion are only
-    /// passed to the supervisor, and another force is read.
+    /// The tip rests during the reading, so slow links and filters cost time but no travel. A reading from before this call is passed to the
+    /// supervisor, and the transducer is read again.
     pub(super) fn read_force(&mut self) -> Step<Reading> {
         let asked_s = self.clock.now_s();
         for _ in 0..READ_TRIES {
@@ -119,11 +119,11 @@ pub(super) struct Reading {
     pub(super) said: Wrench,
     /// Time of the measurement, in s.
     pub(super) valid_s: f64,
-    /// Sequence number; `None` if the transducer gives none.
+    /// Sequence number; `None` if the transducer does not number its readings.
     number: Option<u64>,
 }
 
-/// Observation of a force, with its sequence number if it has one.
+/// Observation for the supervisor of the force `said`, with the sequence number if there is one.
 fn observation(said: Wrench, stamp: Stamp, number: Option<u64>) -> Observation {
     match number {
         Some(number) => Observation::Numbered(said, stamp, number),

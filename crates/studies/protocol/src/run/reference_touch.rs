@@ -1,4 +1,4 @@
-//! Start of a session on the rig of a rig file: its inputs, its reference touch, and faults that the touch reveals.
+//! Start of a session on the rig of a rig file: inputs, reference touch, and faults that the touch reveals.
 
 use std::fmt;
 
@@ -14,7 +14,7 @@ pub struct SessionSpec<'a> {
     pub rig: &'a RigFile,
     /// Name of the robot that the operator must enable; `None` for an emulated robot.
     pub robot: Option<&'a str>,
-    /// Reference touches of earlier sessions of this recording.
+    /// Reference touches of earlier sessions of this recording, oldest first.
     pub touched: &'a [ReferenceTouch],
 }
 
@@ -25,7 +25,7 @@ pub struct ReferenceTouch {
     pub unit: String,
     /// Specimen that touched the gel.
     pub specimen: Specimen,
-    /// Height of the gel in the sensor frame, in mm, positive into the gel.
+    /// Height of the gel along z of the sensor frame, in mm, positive into the gel.
     pub height_mm: f64,
     /// Depth of the touch below the height of the gel, in mm.
     pub depth_mm: f64,
@@ -38,14 +38,14 @@ pub struct ReferenceTouch {
 }
 
 impl ReferenceTouch {
-    /// Maximum apparent displacement of the gel between two sessions, in mm. Arms repeat to about 0.1 mm.
+    /// Greatest apparent change of the gel height between two sessions that counts as no change, in mm. Arms repeat to about 0.1 mm.
     const HEIGHT_MM: f64 = 0.1;
-    /// Maximum apparent relative change of the stiffness between two sessions.
+    /// Greatest relative change of the stiffness between two sessions that counts as no change.
     const FORCE_PART: f64 = 0.1;
     /// Coverage factor of the uncertainty of a change.
     const COVERAGE: f64 = 2.0;
 
-    /// Ratio of force to depth, in N/mm.
+    /// Stiffness of the gel: force divided by depth, in N/mm.
     pub fn stiffness_n_mm(&self) -> f64 {
         self.force_n / self.depth_mm
     }
@@ -69,7 +69,8 @@ impl ReferenceTouch {
         )
     }
 
-    /// Change since the `earlier` touch. `None` if it is within the repeatability of arms and gels, or within the uncertainty of both touches.
+    /// Change since the `earlier` touch. `None` if the change is within the repeatability of arms and gels, or within the uncertainty of both
+    /// touches.
     pub(super) fn changed_since(&self, earlier: &ReferenceTouch) -> Option<ChangedTouch> {
         let part = |touch: &ReferenceTouch| touch.force_u_n / touch.force_n;
         let changed = ChangedTouch {
@@ -90,11 +91,11 @@ impl ReferenceTouch {
 pub struct SessionRecord {
     /// Reference touch.
     pub touch: ReferenceTouch,
-    /// Force reported without contact, before the transducer set its own zero.
+    /// Force and torque reported without contact, before the transducer set its own zero.
     pub zero: Wrench,
-    /// True for each push, to +x and to +y, whose force had the sign stated by the rig file.
+    /// For the sideways pushes to +x and +y: true if the force had the sign that the rig file states.
     pub pushes_felt: [bool; 2],
-    /// True if the frames changed in contact only; false without frames.
+    /// True if the frames changed in contact but not in the air; false without frames.
     pub picture_changed: bool,
     /// Time from an exceeded limit to the halt, in ms: the 99.9th percentile.
     pub reaction_ms: f64,
@@ -106,32 +107,32 @@ pub struct SessionRecord {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum TouchFault {
-    /// The force did not reach the target within half of the allowed depth.
+    /// The force did not reach the wanted force within half of the allowed depth.
     Weak {
         /// Force, in N.
         force_n: f64,
-        /// Target, in N.
+        /// Wanted force, in N.
         wanted_n: f64,
         /// Depth reached, in mm.
         depth_mm: f64,
     },
-    /// A force remains after the tip has left the gel.
+    /// The normal force does not return to zero after the tip has left the gel.
     Clings {
         /// Remaining force, in N.
         force_n: f64,
     },
     /// The frames do not change in contact.
     Unseen {
-        /// Greatest change of a part of the frame in contact, in steps of an 8-bit pixel.
+        /// Greatest change of mean brightness in contact, over equal parts of the frame, in steps of an 8-bit pixel.
         in_contact: f64,
-        /// Greatest change in the air, in steps of an 8-bit pixel.
+        /// Greatest change of mean brightness in the air, over equal parts of the frame, in steps of an 8-bit pixel.
         in_air: f64,
     },
     /// The frames remain changed after the tip has left the gel.
     Stays {
-        /// Greatest change of a part of the frame in contact, in steps of an 8-bit pixel.
+        /// Greatest change of mean brightness in contact, over equal parts of the frame, in steps of an 8-bit pixel.
         in_contact: f64,
-        /// Greatest change after contact, in steps of an 8-bit pixel.
+        /// Greatest change of mean brightness after contact, over equal parts of the frame, in steps of an 8-bit pixel.
         after: f64,
     },
 }

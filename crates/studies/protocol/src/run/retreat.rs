@@ -9,8 +9,9 @@ use super::tip::{Step, Tip};
 
 /// Height above the first contact at which the tip counts as in the air, in mm.
 const AIR_MM: f64 = 0.5;
-/// Greatest number of recovery attempts after a fault. Each checks force and pose, then retreats.
+/// Greatest number of attempts to recover after a fault. Each attempt checks force and pose, then retreats.
 const RECOVERY_TRIES: u32 = 10;
+/// Rest before each attempt to recover after a fault.
 const RECOVERY_REST: Duration = Duration::from_millis(20);
 
 impl Tip<'_> {
@@ -35,8 +36,8 @@ impl Tip<'_> {
         Ok(())
     }
 
-    /// Moves straight up by segments after a halt at a limit, until the tip may rest, at most to the height of the first contact. Then resumes the
-    /// supervision of the press, with depths measured from `height_mm`.
+    /// Moves straight up by segments after a halt at a limit. Stops as soon as the tip may rest, at the latest at the first contact or at depth 0.
+    /// Then resumes the supervision of the press, with depths measured from `height_mm`.
     pub(super) fn draw_back(&mut self, height_mm: f64) -> Step<()> {
         self.turn_back()?;
         let contact_mm = self.contact_mm.unwrap_or(height_mm);
@@ -59,7 +60,7 @@ impl Tip<'_> {
         Ok(())
     }
 
-    /// Ends a halt. The supervisor then checks that the force does not exceed its present value.
+    /// Ends a halt. The supervisor then allows the present normal force, or its limit if that is greater.
     fn turn_back(&mut self) -> Step<()> {
         self.release()?;
         self.find_pose()?;
@@ -96,7 +97,7 @@ impl Tip<'_> {
         done
     }
 
-    /// True if two readings of the resting tip are healthy and show a live transducer.
+    /// True if two readings of the resting tip are healthy and differ as those of a working transducer do.
     fn is_trustworthy(&mut self) -> bool {
         if self.release().is_err() || self.find_pose().is_err() {
             return false;

@@ -18,7 +18,7 @@ use crate::plan::{Plan, plan_study};
 use crate::scene::Scene;
 use crate::source::SourceInfo;
 
-/// Height of the gel, in mm. All lengths are sums of powers of two, so that arithmetic is exact.
+/// Height of the gel surface, in mm. This and the following lengths are sums of powers of two, so that arithmetic with them is exact.
 pub(super) const CONTACT_MM: f64 = 0.25;
 pub(super) const SEGMENT_MM: f64 = 0.125;
 pub(super) const CONTACT_MM_S: f64 = 4.0;
@@ -27,7 +27,7 @@ pub(super) const TRAVEL_MM_S: f64 = 16.0;
 /// Function that returns the force in N for the number of the reading and the height of the tip; `None` for a timeout.
 type Force = Box<dyn FnMut(u32, f64) -> Option<f64> + Send>;
 
-/// Force of a live transducer without contact. No two readings are equal.
+/// Force in N of a working transducer without contact, for reading number `question`. No two readings are equal.
 pub(super) fn nothing(question: u32, _: f64) -> Option<f64> {
     Some(f64::from(question) * 1e-6)
 }
@@ -45,15 +45,15 @@ pub(super) struct State {
     pub(super) halted: bool,
     /// True if the robot reports motions that it does not make.
     pub(super) stuck: bool,
-    /// Distance above each target at which the tip stays, in mm.
+    /// Distance by which the tip stops above each target, in mm.
     pub(super) lag_mm: f64,
-    /// Number of attempts to clear a halt that will time out.
+    /// Number of next attempts to clear a halt that time out.
     pub(super) unheard: u32,
     /// Number of attempts to clear a halt.
     pub(super) readied: u32,
-    /// Zero that the transducer set itself, in N; `None` for a transducer that sets none.
+    /// Zero that the transducer has set itself, in N; `None` if it has set none.
     pub(super) box_zero_n: Option<f64>,
-    /// Height in mm of an obstacle that a guard thread reports once to this supervisor.
+    /// Height in mm of an obstacle, and the supervisor to which a guard thread reports a touch of it once.
     pub(super) obstacle: Option<(f64, SharedSupervisor)>,
     questions: u32,
     force: Force,
@@ -235,7 +235,7 @@ impl Draws {
         Draws(seed.wrapping_add(1))
     }
 
-    /// A number from 0 to 1 (splitmix64).
+    /// A uniformly distributed number from 0 to 1, by splitmix64.
     pub(super) fn fraction(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut mixed = self.0;
@@ -251,7 +251,7 @@ impl Draws {
     }
 }
 
-/// Plan with 2 mm of clearance, 1 mm of depth, an overshoot of 0.25 mm and segments of 0.125 mm.
+/// Test plan with 2 mm of clearance and 1 mm of greatest depth. The overshoot is 0.25 mm and a segment 0.125 mm.
 pub(super) fn plan() -> Plan {
     let scene = Scene::parse("small", SMALL).expect("a scene");
     let source = SourceInfo::Rig(Box::new(rig_of(sensor(), Axes::FORCE)));
@@ -271,7 +271,7 @@ pub(super) fn plan() -> Plan {
     plan
 }
 
-/// Runs `act` on the tip of `rig`, which has touched the gel at [`CONTACT_MM`].
+/// Calls `act` with the tip of `rig`, which has touched the gel at [`CONTACT_MM`].
 pub(super) fn with_tip<T>(rig: &Rig, act: impl FnOnce(&mut Tip<'_>) -> T) -> T {
     let plan = plan();
     let limits = plan.limits.clone().expect("it moves");

@@ -8,19 +8,19 @@ use super::shear_way::Sheared;
 use crate::plan::{PlannedPress, SURFACE};
 use crate::press::Motion;
 
-/// Position of a sample in its press.
+/// Place of a sample in a press: its waypoint or frame, the depth zero, and a limit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spot {
-    /// Number of its waypoint or frame.
+    /// Index of the waypoint or frame, from 0.
     pub(super) number: u32,
-    /// Height of depth 0, in mm.
+    /// Height of depth 0 along z of the sensor frame, in mm.
     pub(super) zero_mm: f64,
     /// Limit of the gel that stopped the tip before the waypoint; `None` if the tip reached the waypoint.
     pub(super) limited_by: Option<Limit>,
 }
 
 impl Spot {
-    /// A waypoint that was reached.
+    /// Spot of the waypoint `number`, which the tip reached.
     pub(super) fn reached(number: u32, zero_mm: f64) -> Spot {
         Spot {
             number,
@@ -30,17 +30,17 @@ impl Spot {
     }
 }
 
-/// Recorded samples of a press, and the zero of the press.
+/// Recorded samples of a press, and the depth zero.
 #[derive(Debug, Default)]
 pub(super) struct Gathered {
     /// Height relative to which the depths of the press are measured; `None` before the first contact.
     pub(super) zero: Option<DepthZero>,
-    /// Last waypoint that was reached, with its shear force; `None` before the first waypoint.
+    /// Last waypoint that the tip reached, with the shear force there; `None` before the first waypoint.
     pub(super) sheared: Option<Sheared>,
     pub(super) samples: Vec<Sample>,
 }
 
-/// Sample at `spot`. Channels that were not measured are undefined.
+/// Sample at `spot` from `observed`. Channels that were not measured have no value.
 pub(super) fn sample(
     planned: &PlannedPress,
     spot: Spot,
@@ -97,7 +97,7 @@ mod tests {
     use crate::press::Waypoint;
     use crate::run::rig::plan;
 
-    /// Sample of the second of two waypoints, 0.5 mm below a contact at 0.25 mm.
+    /// Sample of the second of two waypoints, 0.5 mm below a first contact at 0.25 mm.
     fn second(motion: Motion, limited_by: Option<Limit>) -> Sample {
         let mut plan = plan();
         let planned = &mut plan.presses[0];

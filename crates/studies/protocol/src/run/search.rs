@@ -16,11 +16,11 @@ use super::supervisor::MotionStage;
 use super::surface_fit::DepthForce;
 use super::tip::{Step, Tip};
 
-/// Maximum rise of the gel above the greatest earlier contact height, in mm. A slope of 1 mm in 20 mm is 3 degrees.
+/// Greatest height of the gel above its highest known contact, in mm. A slope of 1 mm in 20 mm is 3 degrees.
 const UNEVEN_MM: f64 = 0.4;
-/// Number of steps above the first contact whose readings are used to fit the gel height.
+/// Number of steps above the first contact in which readings are used to fit the height of the gel.
 const FITTED_STEPS: f64 = 6.0;
-/// Number of steps that a guarded tip repeats segment by segment.
+/// Number of the last steps that a guarded tip repeats segment by segment.
 const PASSED_AGAIN_STEPS: f64 = 2.0;
 
 /// First contact of a press, with the readings of the search.
@@ -28,18 +28,18 @@ const PASSED_AGAIN_STEPS: f64 = 2.0;
 pub(super) struct Contact {
     /// First reading in contact.
     pub(super) look: Look,
-    /// Readings of the search.
+    /// Depths and forces that were read during the search.
     readings: Vec<DepthForce>,
 }
 
 impl Tip<'_> {
-    /// Descends until a contact is detected at the end of a step. Returns the first contact; `None` if the search ends without contact.
+    /// Descends until a contact is detected at the end of a step, and returns this contact. `None` if the search ends without contact.
     pub(super) fn search(&mut self) -> Step<Option<Contact>> {
         let (look, readings) = self.recorded(Vec::new(), Self::search_by_steps)?;
         Ok(look.map(|look| Contact { look, readings }))
     }
 
-    /// Returns the zero height of the depths of a press, after its first contact. The depth limit counts from this height from now on.
+    /// Returns the depth zero of a press after the first contact. From now on, the depth limit counts from this zero.
     ///
     /// If `is_depth_read`, a guarded tip repeats the last steps segment by segment.
     pub(super) fn depth_zero(&mut self, contact: Contact, is_depth_read: bool) -> Step<DepthZero> {
@@ -55,7 +55,7 @@ impl Tip<'_> {
         Ok(zero)
     }
 
-    /// Calls `act`, and adds every reading made in the call to `readings`.
+    /// Calls `act`. Returns the result, and `readings` with every reading during the call appended.
     fn recorded<T>(
         &mut self,
         readings: Vec<DepthForce>,
@@ -104,14 +104,14 @@ impl Tip<'_> {
         Ok(None)
     }
 
-    /// Updates the greatest known height of the gel with a contact at `height_mm`.
+    /// Raises the highest known height of the gel if a contact at `height_mm` is higher.
     pub(super) fn is_felt_at(&mut self, height_mm: f64) {
         let highest_mm = self.surface_mm.unwrap_or(height_mm);
         self.surface_mm = Some(height_mm.min(highest_mm));
     }
 
-    /// Descends from `start_mm` in one motion that replaces all steps ending well above the known gel. Returns the number of these steps. After an unexpected
-    /// contact, the tip retreats and the search makes every step.
+    /// Descends from `start_mm` in one motion that replaces all steps that end more than [`UNEVEN_MM`] above the known gel. Returns the number of
+    /// these steps. After an unexpected contact, the tip retreats and the search makes every step.
     fn pass_air(&mut self, start_mm: f64) -> Step<u32> {
         let Some(surface_mm) = self.surface_mm.filter(|_| self.is_guarded) else {
             return Ok(0);
@@ -137,12 +137,12 @@ impl Tip<'_> {
         }
     }
 
-    /// Height of the tip at the end of a step, in mm.
+    /// Height of the tip at the end of step number `step` from `start_mm`, in mm.
     fn height_of_step(&self, start_mm: f64, step: u32) -> f64 {
         start_mm + f64::from(step) * self.pace.step_mm
     }
 
-    /// Descends through air in one motion. A robot with expiring motions stops by itself if this host stops sending.
+    /// Descends through air to `z_mm` in one motion. A robot with expiring motions stops by itself if this host stops sending commands.
     fn descend_through_air(&mut self, z_mm: f64) -> Step<()> {
         if self.robot.expiring_motion().is_none() {
             return self.descend(z_mm);
@@ -164,7 +164,7 @@ mod tests {
     use super::*;
     use crate::run::rig::{CONTACT_MM, Draws, Motion, Rig, with_tip};
 
-    /// Test gel that pushes back below its surface. No two readings are equal.
+    /// Test rig over a gel that pushes back below its surface. No two readings are equal.
     fn over_a_gel() -> Rig {
         Rig::new(-2.0, |question, height_mm| {
             let pressed_mm = (height_mm - CONTACT_MM).max(0.0);
@@ -172,7 +172,7 @@ mod tests {
         })
     }
 
-    /// Contact height and motions of the search, after `know` has set the known gel height.
+    /// Contact height and motions of a search. `know` sets the known height of the gel before the search.
     fn found(know: impl FnOnce(&mut Tip<'_>, &Rig)) -> (f64, Vec<Motion>) {
         let rig = over_a_gel();
         let contact = with_tip(&rig, |tip| {
@@ -231,9 +231,9 @@ mod tests {
         assert_eq!(from_above[begins..], every[..]);
     }
 
-    /// Zero of a press on a gel of 2 N/mm, read with 4 mN of noise in segments of 15 µm, and the stage after it.
+    /// Depth zero of a press on a gel of 2 N/mm, and the stage of motion afterwards. Readings have 4 mN of noise, and segments are 15 µm.
     ///
-    /// The seed determines where the steps meet the gel, as over a tilted gel.
+    /// The seed determines the heights of the steps relative to the gel, as over a tilted gel.
     fn zero_of(seed: u32, is_guarded: bool) -> (DepthZero, MotionStage) {
         let seed = u64::from(seed);
         let start_mm = -2.0 + 0.1 * Draws::new(seed).fraction();

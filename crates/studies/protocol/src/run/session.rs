@@ -1,4 +1,4 @@
-//! A run from start to end: the order of its presses, and its stop.
+//! A run from start to end: the order of presses, and the stop.
 
 use taceva_core::{Lighting, Nanometre, PressOutcome, Sensor, Specimen, counted};
 
@@ -27,29 +27,29 @@ pub(super) struct Run<'a> {
     pub(super) plan: &'a Plan,
     pub(super) mounted: Option<Specimen>,
     pub(super) lit: Option<String>,
-    /// Total weight of interruptions by stale signals.
+    /// Sum of the weights of interruptions, by stale signals, invalid frames or a changed zero of the force.
     silences: u32,
-    /// Number of presses repeated after stale signals or a released switch.
+    /// Number of repetitions of presses, after such interruptions or a released enabling switch.
     redone: u32,
-    /// True for emulated devices, which a busy machine delays.
+    /// True for emulated devices, whose signals a busy machine delays.
     is_emulated: bool,
     /// Longest wait for the enabling switch to be held, in s.
     pub(super) patience_s: f64,
-    /// Steps that the operator skipped.
+    /// Manual steps that the operator skipped.
     pub(super) skipped: Vec<Question>,
     /// True after a skipped step, until the operator confirms that hands are out of reach.
     pub(super) is_reach_unknown: bool,
-    /// True if the gentle touch measured pushes along x and y with the axes of the rig file.
+    /// True if the gentle touch found both sideways pushes, along x and y, as the axes of the rig file state.
     pub(super) is_shear_known: bool,
     /// Session that has not started yet; `None` without a rig file, and after the start.
     pub(super) session: Option<SessionSpec<'a>>,
 }
 
-/// Number of interruptions of one press by stale signals that end the run.
+/// Number of interruptions of one press, by stale signals and the like, after which the run ends.
 const SILENCES_OF_A_PRESS: u32 = 3;
-/// Number of interruptions of a run by stale signals that end the run.
+/// Number of interruptions of all presses, by stale signals and the like, after which the run ends.
 const SILENCES_OF_A_RUN: u32 = 20;
-/// Weight of an interruption; late signals of emulated devices weigh 1.
+/// Weight of a whole interruption. Late signals of emulated devices weigh 1.
 pub(super) const WHOLE: u32 = 10;
 
 impl<'a> Run<'a> {
@@ -242,8 +242,8 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Makes one press. After stale signals or a release, repeats the press from its start if the tip was raised above the gel. Does the same after a fault
-    /// that the operator acknowledged.
+    /// Makes one press. Repeats it from the start after stale signals or a released switch, if the tip was raised above the gel. Also repeats it
+    /// after a fault that the operator acknowledged.
     fn acquire_patiently(
         &mut self,
         planned: &PlannedPress,

@@ -19,16 +19,16 @@ use super::tip::Step;
 use crate::limits::RigLimits;
 use crate::plan::PlannedPress;
 
-/// Duration of measuring the delay of readings.
+/// Time in which the delay of readings is measured.
 const TIMED: Duration = Duration::from_secs(2);
-/// Maximum overshoot of a late guard, as a part of the allowed depth.
+/// Greatest overshoot that the delay of the guard may cause, as a share of the allowed depth.
 const OVERSHOOT_PART: f64 = 0.3;
 /// Speed of the first motion through the air, in mm/s.
 const AIR_MM_S: f64 = 10.0;
-/// Number of interruptions by stale signals that end the start.
+/// Number of interruptions by stale signals after which the start of the session fails.
 const TRIES: u32 = 3;
 
-/// Reaction of the guard on this machine.
+/// Measured reaction time of the guard on this machine, and the overshoot that it causes.
 #[derive(Clone, Copy, Debug)]
 struct Reaction {
     reaction_ms: f64,
@@ -36,7 +36,7 @@ struct Reaction {
 }
 
 impl Run<'_> {
-    /// Asks the operator to enable the robot before its first motions, which `way` names.
+    /// Asks the operator to enable the robot before its first motions, which the text `way` describes.
     pub(super) fn enable(&mut self, way: String) -> Result<(), RunError> {
         let robot = self.session.as_ref().and_then(|session| session.robot);
         let Some(robot) = robot else {
@@ -50,7 +50,7 @@ impl Run<'_> {
         supervisor.during_question(|| enable(robot, way, operator, self.tip.cancel))
     }
 
-    /// Begins the session. Called once, before the first press and with the specimen of this press.
+    /// Begins the session. Called once, before the press `first` and with the specimen of this press mounted.
     pub(super) fn begin(
         &mut self,
         places: &[[Nanometre; 2]],
@@ -116,7 +116,7 @@ impl Run<'_> {
         Ok(record)
     }
 
-    /// Measures the delay of readings on this machine. Rejects a machine with too great an overshoot.
+    /// Measures the delay of readings on this machine. Rejects a machine whose delay causes too great an overshoot.
     fn time_readings(&mut self) -> Step<Reaction> {
         let supervisor = self.tip.supervisor.clone();
         supervisor.lock().time_readings();
@@ -137,7 +137,7 @@ impl Run<'_> {
         allowed(reaction_s, limits, self.plan.contact.speed_mm_s.value)
     }
 
-    /// Moves slowly over three of the places, to show the operator the workspace of the robot.
+    /// Moves slowly over three of `places`, to show the operator the workspace of the robot.
     fn pass_through_the_air(&mut self, places: &[[Nanometre; 2]]) -> Step<()> {
         let usual = self.tip.pace;
         self.tip.pace.travel = slowly(usual.travel);
@@ -151,7 +151,7 @@ impl Run<'_> {
     }
 }
 
-/// Limits a speed, so that the operator can follow the robot with a hand at the emergency stop.
+/// The speed `travel`, limited so that the operator can follow the robot with a hand at the emergency stop.
 fn slowly(travel: Speed) -> Speed {
     match Speed::try_new(AIR_MM_S) {
         Ok(slow) if slow.mm_per_s() < travel.mm_per_s() => slow,

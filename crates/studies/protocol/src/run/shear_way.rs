@@ -1,4 +1,4 @@
-//! Compares the tangential displacement of the tip in a press with the change of the shear force.
+//! Comparison of the sideways motion of the tip in a press with the change of the shear force.
 
 use std::fmt;
 
@@ -6,13 +6,13 @@ use taceva_core::{Nanometre, Wrench};
 
 use crate::press::Waypoint;
 
-/// Least change of the shear force that is compared, in multiples of the least force that counts as contact in the air.
+/// Least change of the shear force that is compared, in multiples of `air_n`.
 const FORCE_STEPS: f64 = 5.0;
-/// Least change that is compared, as a part of the greater of the two shear forces. Slip and relaxation lower a shear force by less, even during
-/// motion along the force.
+/// Least change of the shear force that is compared, as a share of the greater of the two shear forces. Slip and relaxation change a force by less,
+/// even if the tip moves along the force.
 const CHANGED_PART: f64 = 0.75;
-/// Least cosine of the angle between the force change and the displacement. Friction and an elastic gel push along the displacement. If x and y are
-/// swapped, the force is reversed for every displacement whose components along x and y have opposite signs.
+/// Least accepted cosine of the angle between the force change and the motion of the tip. Friction and an elastic gel push along the motion. If x and
+/// y are swapped, the force is reversed for every motion whose components along x and y have opposite signs.
 const ALONG: f64 = -0.25;
 
 /// A waypoint at which the tip rested, with its shear force in N.
@@ -23,12 +23,12 @@ pub(super) struct Sheared {
     force_n: [f64; 2],
 }
 
-/// Tangential displacement, and the change of the shear force over it, along x and y.
+/// Sideways motion of the tip along x and y, and the change of the shear force during this motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShearFault {
-    /// Displacement of the tip, in mm.
+    /// Sideways motion of the tip along x and y, in mm.
     pub way_mm: [f64; 2],
-    /// Change of the force, in N.
+    /// Change of the shear force along x and y, in N.
     pub force_n: [f64; 2],
 }
 
@@ -55,8 +55,8 @@ impl Sheared {
         }
     }
 
-    /// Fault if the tip moved sideways at one depth since `earlier`, and most of the shear force changed against this displacement. `air_n` is the
-    /// least force that counts as contact in the air.
+    /// Returns the fault if most of the shear force changed against the sideways motion of the tip since `earlier`, at one depth. `air_n` is the
+    /// least force that counts as contact in the air, in N.
     pub(super) fn fault(&self, earlier: &Sheared, air_n: f64) -> Option<ShearFault> {
         let axes = [0, 1];
         let way_mm =

@@ -1,7 +1,7 @@
 //! Length of one motion near or in the gel.
 //!
-//! Without guard threads, a run detects a limit only at the end of a motion, so motions are segments of 15 ms. Guard threads halt within a motion, so motions
-//! may be longer, up to where a limit is expected. The stated overshoot therefore applies even to a late guard.
+//! Without guard threads, a run detects a limit only at the end of a motion, so motions are segments of 15 ms. Guard threads halt within a motion, so
+//! a motion may be longer, but ends before a limit is expected. The stated overshoot therefore holds even if a guard halts late.
 
 use taceva_core::Pose;
 
@@ -9,7 +9,7 @@ use super::supervisor::MotionStage;
 use super::tip::Tip;
 use super::way::{is_straight_down, is_straight_up};
 
-/// Longest motion near the gel, in mm. It limits the travel of a robot that has lost its host.
+/// Longest motion near the gel, in mm. A robot that has lost its host travels no farther.
 const LONGEST_MM: f64 = 1.0;
 impl Tip<'_> {
     /// Length of the next motion from `here` towards `goal`, in mm.

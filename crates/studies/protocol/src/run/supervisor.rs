@@ -32,11 +32,11 @@ const DIVERGED_MM: f64 = 0.5;
 const DIVERGED_NOISES: f64 = 5.0;
 /// Greatest rate of force of a gel pressed at 5 mm/s or slower, in N/s.
 const RATE_MAX_N_S: f64 = 200.0;
-/// Least time between two readings for a rate above the noise, in s.
+/// Least time between two readings from which a rate of force is computed, in s. In a shorter time, noise would exceed the rate.
 const RATE_SPAN_S: f64 = 0.005;
-/// Allowed increase of the force over its start value in a retreat, in N. It allows for the noise of a transducer.
+/// Greatest increase of the normal force during a retreat, relative to its start, in N. It allows for the noise of a transducer.
 const RETREAT_MARGIN_N: f64 = 0.05;
-/// Maximum change of a pose without noise that counts as rest, in mm.
+/// Greatest change of a pose that does not count as a motion, in mm, for a robot without pose noise.
 const MOVED_MM: f64 = 1e-6;
 
 /// A supervisor shared by several threads.
@@ -44,7 +44,7 @@ const MOVED_MM: f64 = 1e-6;
 pub struct SharedSupervisor(Arc<Mutex<Supervisor>>);
 
 impl SharedSupervisor {
-    /// Shares `supervisor` among clones.
+    /// Creates a handle to `supervisor`. Clones of the handle share the supervisor.
     pub fn new(supervisor: Supervisor) -> SharedSupervisor {
         SharedSupervisor(Arc::new(Mutex::new(supervisor)))
     }
@@ -54,7 +54,7 @@ impl SharedSupervisor {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Locks the supervisor; `None` while another thread holds the lock. A thread in simulated time cannot wait.
+    /// Locks the supervisor; `None` while another thread holds the lock. For threads in simulated time, which must not wait.
     pub fn try_lock(&self) -> Option<MutexGuard<'_, Supervisor>> {
         match self.0.try_lock() {
             Ok(held) => Some(held),
@@ -64,18 +64,18 @@ impl SharedSupervisor {
     }
 }
 
-/// Halts a robot on a bad reading. The trip is stored until [`release`](Supervisor::release) is called.
+/// Halts a robot at a bad reading. The reason, a [`Trip`], is stored until [`release`](Supervisor::release) is called.
 pub struct Supervisor {
     limits: RigLimits,
     halt: Arc<dyn Halt>,
     stage: MotionStage,
-    /// Reading of the transducer without load.
+    /// Zero that is subtracted from every reading: the reading without load.
     zero: Wrench,
-    /// Start and end of the motion in progress; `None` at rest.
+    /// Start and end poses of the motion in progress; `None` at rest.
     way: Option<[Pose; 2]>,
     /// Fault that the robot reported to a guard thread, if any.
     fault: Option<Fault>,
-    /// Last pose during a motion; `None` before this pose.
+    /// Last pose read during a motion; `None` before the first.
     seen: Option<Pose>,
     /// Last force and its time in s, for the rate; `None` before the first force.
     last: Option<(Wrench, f64)>,
@@ -90,7 +90,7 @@ pub struct Supervisor {
 }
 
 impl Supervisor {
-    /// Creates a supervisor with these limits for the robot that `halt` stops.
+    /// Creates a supervisor that checks `limits` and halts a robot by `halt`.
     pub fn new(limits: RigLimits, halt: Arc<dyn Halt>) -> Supervisor {
         Supervisor {
             limits,
@@ -113,8 +113,8 @@ impl Supervisor {
         }
     }
 
-    /// Starts the supervision of `stage` at `now_s`, from which the age of signals is measured. A trip is not cleared, so the robot remains halted until a
-    /// release.
+    /// Starts the supervision of `stage` at the time `now_s`, in s. The age of signals is measured from this time. The last trip is not cleared, so
+    /// the robot remains halted until a release.
     pub fn watch(&mut self, stage: MotionStage, now_s: f64) {
         self.stage = stage;
         self.heard_s = now_s;
@@ -131,13 +131,13 @@ impl Supervisor {
         }
     }
 
-    /// Clears the trip and supervises `stage`. Call this after the halt of the robot was ended.
+    /// Clears the trip and starts the supervision of `stage`. Call this after the robot was released from its halt.
     pub fn release(&mut self, stage: MotionStage, now_s: f64) {
         self.tripped = None;
         self.watch(stage, now_s);
     }
 
-    /// Marks the tip as at rest.
+    /// Records that the motion of the tip has ended.
     pub fn rests(&mut self) {
         self.way = None;
     }
@@ -147,7 +147,7 @@ impl Supervisor {
         self.way.is_some()
     }
 
-    /// Halts because a guard thread detected a fault of the robot.
+    /// Halts the robot because a guard thread detected a fault of the robot.
     pub fn fail(&mut self, fault: Fault) {
         self.fault = Some(fault);
         self.halt();
@@ -163,24 +163,24 @@ impl Supervisor {
         self.fault = None;
     }
 
-    /// Halts because a reading is saturated, so the true force is unknown.
+    /// Halts the robot because a force reading is saturated, so the true force is unknown.
     pub fn saturated(&mut self) -> Trip {
         let force_n = f64::INFINITY;
         self.trip(Trip::Saturated { force_n })
     }
 
-    /// Halts for a reason other than a reading, such as a cancellation.
+    /// Halts the robot for a reason other than a reading, such as a cancellation.
     pub fn halt(&mut self) {
         // A second halt is harmless. An error of a lost link cannot be reported otherwise.
         let _ = self.halt.halt();
     }
 
-    /// Sets the zero, which is subtracted from every later force before the comparison with limits of the gel.
+    /// Sets the zero of the force, which is subtracted from every later reading before limits of the gel are checked.
     pub fn call_zero(&mut self, zero: Wrench) {
         self.zero = zero;
     }
 
-    /// Zero that is subtracted from every force.
+    /// Zero that is subtracted from every force reading.
     pub(super) fn zero(&self) -> Wrench {
         self.zero
     }
@@ -195,7 +195,8 @@ impl Supervisor {
         }
     }
 
-    /// True if two readings of a resting tip show a live transducer: values differ, or for a transducer with coarse steps, numbers or times differ.
+    /// True if two readings of a resting tip show a working transducer: values differ, or for a transducer with coarse steps, numbers or times
+    /// differ.
     pub(super) fn is_live(&self, one: &Look, other: &Look) -> bool {
         match (one.number, other.number) {
             (Some(one), Some(other)) if one == other => false,
@@ -210,23 +211,23 @@ impl Supervisor {
         self.lateness = Some(Lateness::default());
     }
 
-    /// Time from an exceeded limit to a sent halt, in s: the 99.9th percentile of the readings since [`time_readings`](Supervisor::time_readings).
-    /// `None` for fewer than two readings.
+    /// Time from an exceeded limit to a sent halt, in s: with the 99.9th percentile of the ages of readings since
+    /// [`time_readings`](Supervisor::time_readings). `None` for fewer than two readings.
     pub(super) fn reaction_s(&mut self) -> Option<f64> {
         self.lateness.take()?.reaction_s()
     }
 
-    /// True if the tip may rest at this depth under this force.
+    /// True if the tip may rest at `depth_mm` under the force `wrench`.
     pub(super) fn lets_rest(&self, depth_mm: f64, wrench: &Wrench) -> bool {
         self.limits.hold(depth_mm, wrench)
     }
 
-    /// Reason of the halt; `None` without a halt.
+    /// Reason why the supervisor halted the robot; `None` without a halt.
     pub fn tripped(&self) -> Option<Trip> {
         self.tripped
     }
 
-    /// True if the last force differs from the force before the last motion. The signal is then not frozen.
+    /// True if the last force differs from the force before the last motion, so the signal is not frozen.
     pub fn is_fresh(&self) -> bool {
         self.repeats.count() == 0
     }
@@ -259,7 +260,7 @@ impl Supervisor {
         }
     }
 
-    /// Halts for `trip`; returns the first trip since the last release.
+    /// Halts the robot for `trip`, and returns the first trip since the last release.
     pub(crate) fn trip(&mut self, trip: Trip) -> Trip {
         self.halt();
         *self.tripped.get_or_insert(trip)
@@ -353,7 +354,7 @@ impl Supervisor {
         })
     }
 
-    /// Checks a pose during a motion; `None` for a valid pose. An unchanged pose does not count as a motion.
+    /// Checks a pose during a motion; `None` for a valid pose. A pose equal to the last one is no evidence of a motion.
     fn under_way(&mut self, pose: &Pose, stamp: &Stamp, now_s: f64) -> Option<Trip> {
         let seen = *self.seen.get_or_insert(*pose);
         if distance(pose, &seen) > MOVED_MM.max(self.limits.signals.slack_mm()) {

@@ -1,12 +1,13 @@
 //! Fit of the height of the gel to readings of force before and after the first contact.
 //!
-//! Above the height z₀ of the gel, the force is b. Below z₀, at the height z, the force is b + c·(z − z₀)^p. Neither b, c, p nor the noise is known.
-//! The fit weighs every z₀ and p by the residuals that the best b and c leave (the posterior under a flat prior of b, c and the logarithm of the
-//! noise). Only sums, products and roots are computed, so that every machine finds the same bits.
+//! Let z₀ be the height of the gel and z the height of the tip, both positive into the gel. Above the gel, the force is a constant b. In the gel, the
+//! force is b + c·(z − z₀)^p. Neither b, the stiffness c, the exponent p nor the noise is known. The fit weighs every z₀ and p by the residuals of
+//! the best b and c. The weight is the posterior under a flat prior of b, c and the logarithm of the noise. Only sums, products and roots are
+//! computed, so that every machine finds the same bits.
 
 use super::depth_zero::ZeroUnknown;
 
-/// Force at a height of the tip.
+/// Normal force at one height of the tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct DepthForce {
     /// Height in the sensor's frame, positive into the gel, in mm.
@@ -15,11 +16,11 @@ pub(super) struct DepthForce {
     pub(super) force_n: f64,
 }
 
-/// Height of the gel.
+/// Fitted height of the gel in the sensor frame, in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Surface {
     pub(super) height_mm: f64,
-    /// Standard uncertainty, in mm.
+    /// Standard uncertainty of the height, in mm.
     pub(super) deviation_mm: f64,
 }
 
@@ -27,25 +28,26 @@ pub(super) struct Surface {
 pub(super) const LEAST_READINGS: usize = 6;
 /// Number of parameters that are fitted at each height and exponent: force above the gel, stiffness and noise.
 const PARAMETERS: usize = 3;
-/// Exponents of the force in quarters, with their prior weights: 4 for a flat tip and a skin, 6 for a sphere, 8 for an edge.
+/// Exponents of the force over depth, in quarters, with their prior weights. 4/4 fits a flat tip and a skin, 6/4 a sphere, 8/4 an edge.
 const EXPONENTS: [(u32, f64); 5] = [(4, 2.0), (5, 2.0), (6, 2.0), (7, 0.5), (8, 0.25)];
-/// Number of heights at which each of two passes weighs the residuals. The second pass covers the heights that the first finds probable.
+/// Number of heights whose residuals are weighed in each pass.
 const HEIGHTS: u32 = 64;
+/// Number of passes. The second pass covers the heights that the first finds probable.
 const PASSES: u32 = 2;
-/// Half the range of the second pass, in standard deviations of the first.
+/// Half the range of heights in the second pass, in standard deviations of the height from the first pass.
 const SPREAD: f64 = 5.0;
 /// Minimum standard deviation of a reading, in N. No transducer at rest has less noise.
 const QUIET_N: f64 = 1e-4;
-/// Weight of a fit without a gel, relative to the best fit, above which no contact is detected.
+/// Greatest weight of a fit without a gel, relative to the best fit, at which a contact is still detected.
 const UNSEEN: f64 = 0.01;
-/// Weight at the upper end of the range, relative to the greatest, above which the gel may begin above the range.
+/// Greatest weight of the highest height, relative to the greatest weight, at which the gel certainly begins within the range.
 const CUT_OFF: f64 = 0.1;
-/// Uncertainty because the force law is unknown, as a part of the depth of the first contact.
+/// Standard uncertainty due to the unknown force law, as a share of the depth of the first contact below the fitted height.
 const LAW_PART: f64 = 0.05;
-/// Tolerance for the end of the window, in mm.
+/// Tolerance for the upper end of the window of readings, in mm.
 const ROUNDING_MM: f64 = 1e-9;
 
-/// Height of the gel whose first contact was at `contact_mm`, from the `readings` at most `window_mm` above.
+/// Fits the height of the gel whose first contact was at `contact_mm`, to the `readings` from `window_mm` above the contact on.
 pub(super) fn surface(
     readings: &[DepthForce],
     contact_mm: f64,
@@ -87,7 +89,7 @@ pub(super) fn surface(
     })
 }
 
-/// Range of heights under consideration.
+/// Range of heights at which the gel may begin.
 #[derive(Clone, Copy, Debug)]
 struct Range {
     from_mm: f64,
@@ -99,12 +101,12 @@ impl Range {
         (self.to_mm - self.from_mm) / f64::from(HEIGHTS)
     }
 
-    /// Middles of equal parts, from the highest height on.
+    /// Middle heights of [`HEIGHTS`] equal parts of the range, from the highest on, in mm.
     fn heights_mm(&self) -> impl Iterator<Item = f64> {
         (0..HEIGHTS).map(move |part| self.from_mm + self.step_mm() * (f64::from(part) + 0.5))
     }
 
-    /// The part of the range near `surface`.
+    /// Part of the range near `surface`, which the second pass covers.
     fn around(&self, surface: &Surface) -> Range {
         let half_mm = SPREAD * surface.deviation_mm + self.step_mm();
         Range {
@@ -114,19 +116,19 @@ impl Range {
     }
 }
 
-/// Readings, with the sums that are the same for every height.
+/// Force readings of one fit, with the sums that are the same for every height.
 struct Centred<'a> {
     readings: &'a [DepthForce],
     count: f64,
     mean_n: f64,
-    /// Sum of the squared differences from the mean, at least that of the least noise, in N².
+    /// Sum of the squared differences of the forces from their mean, plus that of the least noise, in N².
     squares: f64,
 }
 
-/// Result of a pass over a range.
+/// Result of weighing every height of a range.
 struct Weighed {
     surface: Surface,
-    /// Least sum of squared residuals, in N².
+    /// Least sum of squared residuals over all heights and exponents, in N².
     least: f64,
     /// Weight of the highest height, relative to the greatest weight of all heights.
     at_upper_end: f64,
@@ -152,7 +154,7 @@ impl<'a> Centred<'a> {
         }
     }
 
-    /// Weighs each height of `range` under each exponent.
+    /// Weighs each height of `range` by its residuals under each exponent.
     fn weigh(&self, range: &Range) -> Weighed {
         let residuals: Vec<[f64; EXPONENTS.len()]> = range
             .heights_mm()
@@ -194,7 +196,7 @@ impl<'a> Centred<'a> {
         }
     }
 
-    /// Least sum of the squared residuals of the force law with this height and exponent, at least that of the least noise, in N².
+    /// Least sum of squared residuals of the force law with the gel at `height_mm` and the exponent `quarters` / 4, in N²; not below that of noise.
     fn residual(&self, height_mm: f64, quarters: u32) -> f64 {
         let (mut sum, mut square, mut product) = (0.0, 0.0, 0.0);
         for reading in self.readings {
@@ -213,7 +215,7 @@ impl<'a> Centred<'a> {
         }
     }
 
-    /// Weight of a residual relative to the weight of the least residual.
+    /// Weight of the sum of squared residuals `residual`, relative to that of the least sum `least`.
     fn part_of(&self, least: f64, residual: f64) -> f64 {
         let mut base = (least / residual).sqrt();
         let mut exponent = self.readings.len().saturating_sub(PARAMETERS);

@@ -1,7 +1,7 @@
 //! Taps: the tip touches the gel at one place repeatedly, fast and slowly in turn, while listeners record every device.
 //!
-//! Position, force and frame change at the same moment, so the delay of a device is its latency. The force reaches half of its rise at an offset from
-//! the reference height of the pose. The time over this offset decreases with speed; a latency does not.
+//! Position, force and frame change at the same moment, so the delay of a device is its latency. The force reaches half of its rise at a fixed
+//! distance from the reference height of the tip. The time over this distance decreases with speed; a latency does not.
 
 mod edges;
 mod heard;
@@ -25,16 +25,17 @@ use super::{Controls, Devices, Mode, RunSpec};
 use crate::content_id::ContentId;
 use crate::plan::Plan;
 
-/// Speed of slow taps, as a part of the speed of contact.
+/// Speed of slow taps, as a share of the speed in contact.
 const SLOW_PART: f64 = 1.0 / 3.0;
 /// Height above the gel at which a tap begins, in mm. It leaves time for a few frames in the air.
 const LEAD_MM: f64 = 0.5;
-/// Depth and force at the end of a tap, as parts of their limits. The force is predicted from the first touch.
+/// Depth and force at the end of a tap, as a share of their limits. The force is predicted from the gentle touch.
 const PART: f64 = 0.4;
-/// Duration of the recording before and after the motion. It is sufficient for the slowest device.
+/// Duration of the recording before the motion.
 const BEFORE: Duration = Duration::from_millis(150);
+/// Duration of the recording after the motion. It is sufficient for the slowest device.
 const AFTER: Duration = Duration::from_millis(600);
-/// Number of consecutive interruptions of a tap by stale signals that end the run.
+/// Number of consecutive interruptions of a tap by stale signals after which the run ends.
 const TRIES: u32 = 3;
 
 /// Listener to the devices of a rig during taps, on its own threads.
@@ -43,15 +44,15 @@ pub trait TapListener {
     fn begins(&mut self);
     /// Stops recording after a tap or its interruption, and returns the recording.
     fn ends(&mut self) -> TapHeard;
-    /// Called if the last tap is valid and will not be repeated.
+    /// Called when the last tap is valid and will not be repeated.
     fn counts(&mut self);
 }
 
 /// Taps the gel at its middle and measures the latency of each device relative to the pose of the robot.
 ///
 /// Starts like a session (see [`run_guarded`](super::run_guarded)): the operator enables the robot, readings are timed, and a gentle touch must agree
-/// with the rig file. Threads pass every force reading and every pose to `supervisor`. The presses of `plan` are not made. No frames are captured
-/// here, because the listener holds the sensor.
+/// with the rig file. Threads pass every force reading and every pose to `supervisor`. The presses of `plan` are not made. The listener captures the
+/// frames, because it holds the sensor.
 ///
 /// # Errors
 /// [`RunError`] for the causes of [`run_guarded`](super::run_guarded).
@@ -189,13 +190,13 @@ impl Run<'_> {
     }
 }
 
-/// Heights of a tap, in mm of the sensor's frame.
+/// Heights of the tip during a tap, in mm of the sensor frame.
 #[derive(Clone, Copy, Debug)]
 struct Way {
     from_mm: f64,
     contact_mm: f64,
     bottom_mm: f64,
-    /// Reference height; the tip passes it at the time of the tap.
+    /// Reference height. The time at which the tip passes it counts as the time of the tap.
     reference_mm: f64,
 }
 

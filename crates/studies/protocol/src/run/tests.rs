@@ -1,4 +1,4 @@
-//! Tests of light and transducer during a run.
+//! Tests of the use of light and transducer during a run.
 
 use std::sync::{Arc, Mutex};
 
@@ -12,7 +12,7 @@ use super::*;
 use crate::content_id::ContentId;
 use crate::press::Motion;
 
-/// Calls of the devices, in order.
+/// Names of the calls that the test devices received, in order.
 type Asked = Arc<Mutex<Vec<String>>>;
 
 fn note(asked: &Asked, what: &str) {
@@ -64,7 +64,7 @@ impl PressLog for Nowhere {
     }
 }
 
-/// A plan of three presses of one sphere at one place, at rest, under lights, without frames.
+/// A plan of three presses of one sphere at one place. Each press rests above the gel, without frames, in one of `lights`.
 fn at_rest(lights: [&str; 3]) -> Plan {
     let mut plan = plan();
     plan.presses.truncate(3);

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 /// Clock of a run, in s. It stamps the readings of the devices, and never runs backwards.
 ///
-/// (Core's [`Clock`](taceva_core::Clock) names only the kind of clock of a recording.)
+/// [`Clock`](taceva_core::Clock) of the core crate is not a clock: it names the kind of clock of a recording.
 pub trait Timekeeper {
     /// Current time, in s.
     fn now_s(&self) -> f64;
@@ -20,12 +20,12 @@ pub trait Timekeeper {
 pub struct Cancel(Arc<AtomicBool>);
 
 impl Cancel {
-    /// Creates a cancellation that is not set.
+    /// Creates a cancellation that has not been requested.
     pub fn new() -> Cancel {
         Cancel::default()
     }
 
-    /// Cancels permanently.
+    /// Requests the cancellation. The request cannot be withdrawn.
     pub fn cancel(&self) {
         self.0.store(true, Ordering::Release);
     }

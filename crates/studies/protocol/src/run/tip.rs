@@ -1,4 +1,4 @@
-//! The tip of the robot. Every motion is checked, divided into segments where it may touch the gel, and followed by a reading.
+//! The tip of the robot. Every motion is checked and followed by a reading. Near the gel, it is divided into segments.
 
 use std::time::Duration;
 
@@ -21,22 +21,22 @@ use super::way::{distance, part_way, settled};
 use crate::limits::FROZEN_READINGS;
 use crate::plan::Plan;
 
-/// Deadline of every call except motions.
+/// Deadline of every call to a device except motions.
 pub(super) const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
-/// Number of additional segments of a motion, beyond twice the segments of its path, after which the robot counts as stuck.
+/// Number of motions in addition to twice the segments of a path. After these, the robot counts as stuck.
 pub(super) const SPARE_SEGMENTS: f64 = 8.0;
 
 /// Stage while the zero or the present force is unknown: only saturation of the transducer limits the force.
 pub(super) const ANY_FORCE: MotionStage = MotionStage::Retreat {
     force_n: f64::INFINITY,
 };
-/// Force of a collision in the air, in multiples of the contact threshold. It is high because arms shake the body that they move.
+/// Force that counts as a collision in the air, in multiples of the contact threshold. It is high because arms shake the objects they carry.
 const COLLISION_THRESHOLDS: f64 = 10.0;
 
 /// Result of a step of a press; the error is the cause that stops it.
 pub(super) type Step<T> = Result<T, StopCause>;
 
-/// The tip, with the devices and the supervisor that watch it.
+/// The tip of the robot, with the devices and the supervisor that watch it.
 pub(super) struct Tip<'a> {
     pub(super) robot: &'a mut dyn Robot,
     pub(super) force: &'a mut dyn ForceTransducer,
@@ -47,15 +47,15 @@ pub(super) struct Tip<'a> {
     pub(super) is_guarded: bool,
     pub(super) bounds: Bounds,
     pub(super) pace: Pace,
-    /// Last pose read.
+    /// Last pose that was read.
     pub(super) at: Pose,
-    /// Last target.
+    /// Target of the last motion.
     pub(super) target: Pose,
-    /// Height of the first contact, in mm; `None` if the tip cannot be in the gel.
+    /// Height of the first contact in the sensor frame, in mm; `None` if the tip cannot be in the gel.
     pub(super) contact_mm: Option<f64>,
-    /// Present stage.
+    /// Stage of the press, which the supervisor knows.
     pub(super) stage: MotionStage,
-    /// Last force.
+    /// Normal and shear force of the last reading.
     pub(super) felt: Felt,
     /// Height of the highest known point of the gel, in mm; `None` before the first contact.
     pub(super) surface_mm: Option<f64>,
@@ -65,17 +65,17 @@ pub(super) struct Tip<'a> {
     pub(super) robot_failed: bool,
     /// True while a retreat ignores cancellation.
     pub(super) ignores_cancel: bool,
-    /// Zero that the transducer set itself; 0 if it sets none, `None` before. If the host zeroes the force, the transducer sets a zero only once.
+    /// Zero that the transducer set itself: 0 if it cannot, `None` before. If the host zeroes the force, the transducer sets a zero only once.
     pub(super) box_zero: Option<Wrench>,
-    /// True if the zero is valid for the present load of the robot.
+    /// True if the zero of the force is valid for the present load of the robot.
     pub(super) is_zero_known: bool,
-    /// True if a motion has been sent.
+    /// True if a motion of the robot has been sent in this run.
     pub(super) has_moved: bool,
     /// True while the robot is halted at or above the travel height, so that an operator may reach in.
     pub(super) stands_clear: bool,
 }
 
-/// Speeds, lengths and forces of a run.
+/// Speeds, lengths, times and forces that control the motions of a run.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pace {
     pub(super) contact: Speed,
@@ -85,7 +85,7 @@ pub(super) struct Pace {
     pub(super) search_mm: f64,
     settle: Duration,
     pub(super) threshold_n: f64,
-    /// Least force that counts as contact at rest in the air, in N. It is the threshold, or more if required by noise.
+    /// Least force that counts as contact while the tip rests in the air, in N: the contact threshold, or more if noise requires it.
     pub(super) air_n: f64,
     pub(super) normal_max_n: f64,
     pub(super) bearing: Bearing,
@@ -93,7 +93,7 @@ pub(super) struct Pace {
     /// Tolerance of a reported pose along each axis, in mm. A tip this close to its target has arrived.
     pub(super) slack_mm: f64,
     pub(super) host_zero: bool,
-    /// Greatest change of a component of the zero during a press, in N.
+    /// Greatest change of the zero force during a press, along any axis, in N.
     pub(super) zero_step_n: f64,
 }
 
@@ -126,7 +126,7 @@ impl Pace {
     }
 }
 
-/// True for a timeout without a fault.
+/// True if `error` is a timeout without a fault.
 pub(super) fn is_silent(error: &DriverError) -> bool {
     error.kind() == ErrorKind::Timeout && error.fault().is_none()
 }
@@ -166,12 +166,12 @@ impl<'a> Tip<'a> {
         }
     }
 
-    /// Assumed pose. It is the target, if the difference to the reported pose is within the noise.
+    /// Pose at which the tip is assumed: the target if the reported pose differs from it by no more than the noise.
     pub(super) fn here(&self) -> Pose {
         settled(&self.at, &self.target, self.pace.slack_mm)
     }
 
-    /// Reads the pose, and raises the tip straight to the travel height if it is lower.
+    /// Reads the pose of the tip, and raises the tip straight to the travel height if it is lower.
     pub(super) fn find(&mut self) -> Step<()> {
         self.release()?;
         self.find_pose()?;
@@ -184,7 +184,7 @@ impl<'a> Tip<'a> {
         Ok(())
     }
 
-    /// Moves through the air to `place` at `height_mm`, and zeroes the force there.
+    /// Moves through the air to `place` at `height_mm`, and zeroes the force there. `turn` is the rotation about z.
     pub(super) fn travel(&mut self, place: [f64; 2], turn: Degree, height_mm: f64) -> Step<()> {
         let [x, y] = place.map(Millimetre);
         let z = Millimetre(height_mm);
@@ -204,7 +204,7 @@ impl<'a> Tip<'a> {
         self.look().map(drop)
     }
 
-    /// Sets the stage before a motion through the air. If the zero is known, guard threads watch the motion for collisions.
+    /// Sets the stage for a motion through the air. If the zero of the force is known, guard threads watch the motion for collisions.
     pub(super) fn watch_way(&mut self) -> Step<()> {
         if self.is_zero_known || !self.pace.host_zero {
             let threshold_n = match self.is_guarded {
@@ -220,7 +220,7 @@ impl<'a> Tip<'a> {
         Ok(())
     }
 
-    /// Moves straight to a place in mm, by the longest allowed motions. Each motion is followed by a reading.
+    /// Moves straight to a place in mm, in motions as long as is allowed. Each motion is followed by a reading.
     ///
     /// Each motion starts at the actual pose, so that a lagging tip does not jump to its target.
     pub(super) fn approach(&mut self, [x, y, z]: [f64; 3]) -> Step<()> {
@@ -252,7 +252,7 @@ impl<'a> Tip<'a> {
         }
     }
 
-    /// Waits until the gel rests, then reads until the force differs from the force before the last motion.
+    /// Waits for the gel to relax, then reads until the force differs from the force before the last motion.
     pub(super) fn settle(&mut self) -> Step<Look> {
         self.clock.rest(self.pace.settle);
         for _ in 0..FROZEN_READINGS {
@@ -265,14 +265,14 @@ impl<'a> Tip<'a> {
         Err(self.halt_for(Trip::Frozen { readings }))
     }
 
-    /// Sets the stage. A trip of a guard thread is not cleared, and the robot remains halted.
+    /// Sets the stage that the supervisor checks. A trip of a guard thread is not cleared, and the robot remains halted.
     pub(super) fn watch(&mut self, stage: MotionStage) {
         self.stage = stage;
         let now_s = self.clock.now_s();
         self.supervisor.lock().watch(stage, now_s);
     }
 
-    /// Ends a halt. No stage limits the present force until it is known.
+    /// Ends the halt of the robot. The force is not limited until it is known.
     pub(super) fn release(&mut self) -> Step<()> {
         self.stands_clear = false;
         let supervisor = self.supervisor.clone();
@@ -304,7 +304,7 @@ impl<'a> Tip<'a> {
         })
     }
 
-    /// Reads the pose and makes it the target. Differences from the old target within the noise are ignored.
+    /// Reads the pose and makes it the target. A difference from the old target within the noise is ignored.
     pub(super) fn find_pose(&mut self) -> Step<()> {
         let (pose, _) = match self.robot.pose(DEADLINE) {
             Ok(read) => read,
@@ -346,7 +346,7 @@ impl<'a> Tip<'a> {
         }
     }
 
-    /// Pose for a waypoint: over `place`, displaced by the shear, at `depth` below `height_mm`.
+    /// Position for a waypoint, in mm: over `place`, displaced by `shear`, at `depth` below `height_mm`.
     pub(super) fn waypoint(
         place: [Nanometre; 2],
         shear: [Nanometre; 2],

@@ -2,10 +2,10 @@
 
 use taceva_core::{Degree, Millimetre, Point, Pose, Rotation};
 
-/// Tolerance of the rotation of a robot with a noisy pose, in degrees; arms repeat to hundredths.
+/// Greatest difference in rotation that counts as noise of a pose, in degrees. Arms repeat to hundredths of a degree.
 const TURN_SLACK_DEG: f64 = 0.1;
 
-/// Maximum sideways part of a straight motion, relative to its length.
+/// Greatest sideways displacement of a straight motion, as a share of its depth.
 const ASIDE_PART: f64 = 0.01;
 
 /// Distance between two tip positions, in mm.
@@ -20,7 +20,7 @@ pub(crate) fn distance(one: &Pose, other: &Pose) -> f64 {
     x.hypot(y).hypot(z)
 }
 
-/// Distance of a tip from the straight line between two other tip positions, ends included, in mm.
+/// Distance of `tip` from the straight line segment between `from` and `to`, in mm.
 pub(super) fn distance_from_way(tip: &Pose, from: &Pose, to: &Pose) -> f64 {
     let coordinates = |pose: &Pose| {
         let Point { x, y, z } = pose.position;
@@ -41,7 +41,7 @@ pub(super) fn distance_from_way(tip: &Pose, from: &Pose, to: &Pose) -> f64 {
     distance(tip, &part_way(from, to, part))
 }
 
-/// Assumed pose of a tip. Each coordinate is that of `sent` if `seen` differs by less than `slack_mm`, otherwise that of `seen`.
+/// Assumed pose of a tip. A coordinate of `seen` that differs from `sent` by less than `slack_mm` is replaced by that of `sent`.
 pub(super) fn settled(seen: &Pose, sent: &Pose, slack_mm: f64) -> Pose {
     let settle = |seen: Millimetre, sent: Millimetre| {
         let is_there = (seen.0 - sent.0).abs() < slack_mm;
@@ -67,13 +67,13 @@ pub(super) fn settled(seen: &Pose, sent: &Pose, slack_mm: f64) -> Pose {
     }
 }
 
-/// True if a motion only leaves the gel, which is allowed from any place.
+/// True if a motion goes straight out of the gel. Such a motion is allowed from any place.
 pub(super) fn is_straight_up(from: &Pose, to: &Pose) -> bool {
     let (start, end) = (&from.position, &to.position);
     start.x == end.x && start.y == end.y && end.z <= start.z
 }
 
-/// True if a motion goes into the gel and sideways by at most a hundredth of its length, because transmitted poses are rounded.
+/// True if a motion goes into the gel, and sideways by at most a hundredth of its depth. Transmitted poses are rounded, so exactly 0 is not required.
 pub(super) fn is_straight_down(from: &Pose, to: &Pose) -> bool {
     let (start, end) = (&from.position, &to.position);
     let aside_mm = (end.x.0 - start.x.0).hypot(end.y.0 - start.y.0);

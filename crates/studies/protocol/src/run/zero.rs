@@ -1,4 +1,4 @@
-//! Zero of the force. The transducer sets it, or on a real rig it is computed as the mean of readings in the air.
+//! Zero of the force. The transducer sets it. On a real rig, the host computes it as the mean of readings in the air.
 
 use taceva_core::{Newton, NewtonMillimetre, Wrench};
 
@@ -7,16 +7,16 @@ use super::force_zero::ForceZero;
 use super::supervisor::MotionStage;
 use super::tip::{ANY_FORCE, DEADLINE, Step, Tip};
 
-/// Averaging time of the zero, in s. A zero command of an amplifier would take seconds at every press.
+/// Time over which the zero of the force is averaged, in s. A zero command of an amplifier would take seconds at every press.
 const LISTEN_S: f64 = 0.25;
-/// Averaging time of the comparison after a press, in s. A change is measured again over [`LISTEN_S`], because a low-pass filter may still hold the
-/// force of the gel.
+/// Time over which the force is averaged for the comparison after a press, in s. A change is measured again over [`LISTEN_S`], because a low-pass
+/// filter may still pass force of the gel.
 const COMPARE_S: f64 = 0.05;
-/// Least number of readings of a mean, for slow transducers.
+/// Least number of readings in a mean. It applies to slow transducers.
 const LEAST_READINGS: u32 = 4;
 
 impl Tip<'_> {
-    /// Zeroes the force while the tip is in the air.
+    /// Sets the zero of the force, while the tip is in the air.
     pub(super) fn call_zero(&mut self) -> Step<()> {
         if self.pace.host_zero {
             return self.call_zero_by_host();
@@ -48,7 +48,7 @@ impl Tip<'_> {
         Ok(())
     }
 
-    /// Force of the transducer at rest, as it was before the transducer set its own zero.
+    /// Force of the transducer without contact, relative to the zero that it had before the run.
     pub(super) fn raw_zero(&self) -> Wrench {
         let own = self.box_zero.unwrap_or_default();
         let by_host = self.supervisor.lock().zero();
@@ -58,7 +58,7 @@ impl Tip<'_> {
         both.mean(1)
     }
 
-    /// Compares the zero of the host after a press with the zero before. The tip rests in the air. `None` if the transducer sets its own zero.
+    /// Compares the zero of the force after a press with the zero before it. The tip rests in the air. `None` if the transducer sets its own zero.
     pub(super) fn compare_zero(&mut self) -> Step<Option<ForceZero>> {
         if !self.pace.host_zero {
             return Ok(None);
@@ -85,7 +85,7 @@ impl Tip<'_> {
         Ok(ForceZero::new(self.clock.now_s(), before, &after))
     }
 
-    /// Mean of the readings of `listen_s` seconds.
+    /// Mean of the force readings that arrive within `listen_s` seconds, before a zero is subtracted.
     fn mean_force(&mut self, listen_s: f64) -> Step<Wrench> {
         let until_s = self.clock.now_s() + listen_s;
         let (mut sum, mut count) = (Sum::default(), 0_u32);
@@ -178,7 +178,7 @@ mod tests {
         assert!(force_n.expect("it rests") > 0.4);
     }
 
-    /// Force of a gel of 1 N/mm, with a zero that changes by `step_n` in each of the first `steps` presses.
+    /// Force in N of a gel of 1 N/mm at a given height. The zero changes by `step_n` in each of the first `steps` presses.
     fn stepping(step_n: f64, steps: u32) -> impl FnMut(u32, f64) -> Option<f64> {
         let (mut zero_n, mut left, mut is_deep) = (0.0, steps, false);
         move |question, height_mm| {
@@ -192,7 +192,7 @@ mod tests {
         }
     }
 
-    /// Runs one press of 0.5 mm depth, whose zero the host computes. The second value is the number of discarded attempts.
+    /// Runs one press of 0.5 mm depth on a gel whose zero changes as in `stepping`. Returns the press, and the number of discarded attempts.
     fn pressed(step_n: f64, steps: u32) -> (OnePress, u32) {
         let depth = Nanometre(500_000);
         let press = OnePress::to(depth, stepping(step_n, steps), |plan| {

@@ -5,23 +5,23 @@ use taceva_core::Nanometre;
 use crate::scene::Gratings;
 use crate::text::{SceneProblem, Setting};
 
-/// Finest spacing of the catalogue (TacEva 2025, spatial resolution).
+/// Finest spacing of the boards in the catalogue (TacEva 2025, spatial resolution).
 const FINEST: Nanometre = Nanometre(250_000);
-/// Coarsest spacing.
+/// Coarsest spacing of the boards in the catalogue.
 const COARSEST: Nanometre = Nanometre(1_750_000);
-/// Step between spacings.
+/// Step between the spacings of the boards in the catalogue.
 const STEP: Nanometre = Nanometre(50_000);
 const CATALOGUE: &str = "0.25 mm to 1.75 mm in steps of 0.05 mm, lines and dots";
 
 /// Error for gratings outside the catalogue.
 pub(crate) struct RefusedGratings {
-    /// Byte offset in the scene, if known.
+    /// Byte offset of the wrong value in the scene, if known.
     pub(crate) at: Option<usize>,
-    /// Problem.
+    /// Problem to report.
     pub(crate) problem: SceneProblem,
 }
 
-/// Spacing of a board, checked against the catalogue.
+/// Spacing `written` in a scene. Rejects a spacing that no board of the catalogue has.
 pub(crate) fn spacing_of(written: &Setting<f64>) -> Result<Nanometre, RefusedGratings> {
     let in_catalogue = |length: &Nanometre| {
         (FINEST..=COARSEST).contains(length) && (length.0 - FINEST.0) % STEP.0 == 0
@@ -36,7 +36,7 @@ pub(crate) fn spacing_of(written: &Setting<f64>) -> Result<Nanometre, RefusedGra
     })
 }
 
-/// Spacings that `gratings` requests, checked against the catalogue.
+/// Spacings of boards that `gratings` requests. Rejects spacings that no board of the catalogue has.
 pub(crate) fn spacings(gratings: &Gratings) -> Result<Vec<Nanometre>, RefusedGratings> {
     let Gratings {
         from_mm,

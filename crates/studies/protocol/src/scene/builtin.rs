@@ -6,9 +6,9 @@ use crate::text::SceneError;
 /// A scene compiled into the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BuiltinScene {
-    /// Four simulated sensors, all metrics, small counts and a fast model.
+    /// Four simulated sensors, all metrics, few presses and a fast model.
     Quick,
-    /// Four simulated sensors, all metrics, and the counts of the paper.
+    /// Four simulated sensors, all metrics, and the numbers of presses of the TacEva paper.
     Paper,
 }
 
@@ -16,7 +16,7 @@ impl BuiltinScene {
     /// All built-in scenes.
     pub const ALL: [BuiltinScene; 2] = [BuiltinScene::Quick, BuiltinScene::Paper];
 
-    /// Name on the command line.
+    /// Name of the scene on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             BuiltinScene::Quick => "quick",
@@ -31,7 +31,7 @@ impl BuiltinScene {
             .find(|scene| scene.name() == name)
     }
 
-    /// TOML text, to read, copy and edit.
+    /// TOML text of the scene, to read, copy and edit.
     pub const fn text(self) -> &'static str {
         match self {
             BuiltinScene::Quick => include_str!("../scenes/quick.toml"),

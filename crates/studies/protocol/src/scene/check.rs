@@ -1,4 +1,4 @@
-//! Checks of a scene beyond the types of its keys.
+//! Checks of a scene after parsing: ranges, names and contradictions.
 
 mod document;
 mod protocol;
@@ -83,12 +83,12 @@ impl Check<'_> {
         }
     }
 
-    /// True if a rig file names the devices.
+    /// True if a rig file names the devices of the scene.
     fn is_named_elsewhere(&self) -> bool {
         self.named_by == NamedBy::Rig
     }
 
-    /// Checks a name. It must be printable and usable in a file name.
+    /// Checks that `name` is valid as a name of `what`: short, printable and usable in a file name.
     fn name(&self, what: &str, name: &Setting<String>) -> Checked {
         let is_plain = |text: &str| {
             let is_short = (1..=80).contains(&text.len());

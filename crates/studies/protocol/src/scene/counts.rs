@@ -1,4 +1,4 @@
-//! Counts of a protocol; the defaults are the counts of the paper.
+//! Settings of a protocol. The defaults are the numbers of the TacEva paper.
 
 use std::collections::BTreeMap;
 
@@ -32,53 +32,53 @@ macro_rules! table {
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default, expecting = "a table of protocols")]
 pub struct Protocol {
-    /// Settings for finding and keeping contact.
+    /// Settings for finding contact and for motions in contact.
     pub contact: Contact,
-    /// Presses for fitting and testing a model.
+    /// Settings of presses for fitting and testing a model.
     pub calibration: Calibration,
-    /// Held-out presses, which show the places with large errors.
+    /// Settings of held-out presses, which show the places with large errors.
     pub spatial: Spatial,
-    /// Presses on gratings.
+    /// Settings of presses on gratings.
     pub gratings: Gratings,
-    /// Presses in other light scenes.
+    /// Settings of held-out presses that are repeated in each light scene.
     pub lighting: LightSweep,
-    /// Repeated presses.
+    /// Settings of repeated presses.
     pub repeatability: Repeatability,
-    /// Presses for loading and unloading.
+    /// Settings of presses that are recorded during loading and unloading.
     pub hysteresis: Hysteresis,
-    /// Places at which the surface height is measured, on every unit.
+    /// Settings of the places at which the surface height is measured, on every unit.
     pub surface: SurfaceMap,
-    /// Frames without contact.
+    /// Settings of frames without contact.
     pub idle: Idle,
-    /// Strokes until the indenter slides; none unless the scene asks for them.
+    /// Settings of strokes until the indenter slides; without strokes unless the scene asks for them.
     pub slip: Slip,
-    /// Presses of the ball whose contact shape is predicted; none unless the scene asks for them.
+    /// Settings of presses of the ball whose contact shape is predicted; without presses unless the scene asks for them.
     pub shape: ShapePresses,
-    /// Pairs of presses between which a board moves; none unless the scene asks for them.
+    /// Settings of pairs of presses between which a board moves; without pairs unless the scene asks for them.
     pub pose: PosePairs,
-    /// Cycles of load between measured stages; `None` for a single stage.
+    /// Load cycles between measured stages; `None` if the gel is not worn.
     pub wear: Option<WearSpec>,
 }
 
 table! {
     /// Settings for finding contact and for motions in contact.
     Contact {
-        /// Radius of the spherical indenter, in mm. The text of the paper states 2, a caption 10.
+        /// Radius of the spherical indenter, in mm. The text of the TacEva paper states 2, a caption of the paper 10.
         indenter_radius_mm: f64 = 2.0,
-        /// Search step between two force readings, in mm.
+        /// Step of the search for contact, after which force is read, in mm.
         step_mm: f64 = 0.1,
         /// Normal force that counts as contact, in N.
         #[serde(rename = "threshold_N")]
         threshold_n: f64 = 0.02,
-        /// Height relative to which depths are measured.
+        /// Height from which depths are measured: the first contact or the fitted surface.
         depth_from: DepthOrigin = DepthOrigin::Contact,
-        /// Height of travel and start of the search above the nominal surface, in mm.
+        /// Height above the nominal surface at which the tip travels and the search begins, in mm.
         clearance_mm: f64 = 2.0,
         /// Depth below the nominal surface at which the search ends, in mm.
         search_mm: f64 = 12.0,
-        /// Rest before a sample, in s.
+        /// Rest of the tip before a sample, in s.
         settle_s: f64 = 0.05,
-        /// Speed of the tip in search and contact, in mm/s.
+        /// Speed of the tip during the search and in contact, in mm/s.
         speed_mm_s: f64 = 1.0,
         /// Speed of the tip out of contact, in mm/s.
         travel_mm_s: f64 = 20.0,
@@ -88,15 +88,15 @@ table! {
 table! {
     /// Presses for fitting and testing a model: several depths at each point, each straight and then sheared.
     Calibration {
-        /// Number of points.
+        /// Number of contact points.
         points: u32 = 800,
-        /// Greatest number of points to propose for a wanted width.
+        /// Greatest number of contact points that may be proposed to reach a wanted width of an interval.
         points_max: u32 = 10_000,
-        /// Number of depths at each point.
+        /// Number of depths at each contact point.
         indentations: u32 = 4,
-        /// Least depth, in mm.
+        /// Least depth of a press, in mm.
         depth_min_mm: f64 = 0.1,
-        /// Greatest shear along x and along y, in mm; 0 for none.
+        /// Greatest shear displacement along x and along y, in mm; 0 for no shear.
         shear_mm: f64 = 0.75,
     }
 }
@@ -104,11 +104,11 @@ table! {
 table! {
     /// Held-out presses, which show the places with large errors.
     Spatial {
-        /// Number of points, each pressed once at its own depth.
+        /// Number of contact points, each pressed once to its own depth.
         points: u32 = 1_600,
-        /// Least depth, in mm.
+        /// Least depth of a press, in mm.
         depth_min_mm: f64 = 0.1,
-        /// Greatest shear along x and along y, in mm; 0 for none.
+        /// Greatest shear displacement along x and along y, in mm; 0 for no shear.
         shear_mm: f64 = 0.75,
     }
 }
@@ -116,19 +116,19 @@ table! {
 table! {
     /// Presses on gratings.
     Gratings {
-        /// Finest spacing, in mm.
+        /// Finest spacing of the boards, in mm.
         from_mm: f64 = 0.25,
-        /// Coarsest spacing, in mm.
+        /// Coarsest spacing of the boards, in mm.
         to_mm: f64 = 1.75,
-        /// Step between spacings, in mm.
+        /// Step between the spacings of the boards, in mm.
         step_mm: f64 = 0.05,
-        /// Reliefs of the boards.
+        /// Kinds of gratings on the boards: lines, dots or both.
         kinds: Vec<GratingKind> = GratingKind::ALL.to_vec(),
         /// Number of presses on each board, each at its own angle.
         presses: u32 = 100,
-        /// Depth of each press, as a fraction of the greatest depth.
+        /// Depth of each press, as a share of the depth limit.
         depth_fraction: f64 = 0.5,
-        /// Classifier of the spacing.
+        /// Classifier that predicts the spacing of a grating.
         classified_by: GratingClassifier = GratingClassifier::Spectrum,
         /// Settings of a network classifier and of its features, by name.
         set: BTreeMap<String, toml::Value> = BTreeMap::new(),
@@ -136,23 +136,23 @@ table! {
 }
 
 table! {
-    /// The first held-out presses, repeated in each light scene.
+    /// Settings of the first held-out presses, which are repeated in each light scene.
     LightSweep {
-        /// Number of points.
+        /// Number of contact points.
         points: u32 = 100,
     }
 }
 
 table! {
-    /// Repeated presses.
+    /// Settings of repeated presses at the same contact points.
     Repeatability {
-        /// Number of points.
+        /// Number of contact points.
         points: u32 = 100,
-        /// Number of presses at each point.
+        /// Number of presses at each contact point.
         trials: u32 = 10,
         /// Step between depths, in mm.
         depth_step_mm: f64 = 0.1,
-        /// Shear along x at the greatest depth, in mm; 0 for none.
+        /// Shear displacement along x at the greatest depth, in mm; 0 for no shear.
         shear_mm: f64 = 0.75,
         /// True to repeat the presses on every unit, which shows the differences between units.
         every_unit: bool = false,
@@ -160,13 +160,13 @@ table! {
 }
 
 table! {
-    /// Presses for loading and unloading.
+    /// Settings of presses that are recorded during loading and unloading.
     Hysteresis {
-        /// Number of points.
+        /// Number of contact points.
         points: u32 = 100,
         /// Step between depths, in mm.
         depth_step_mm: f64 = 0.1,
-        /// True to capture a frame at each depth of both branches, which the model predicts.
+        /// True to capture a frame at each depth of loading and unloading, so that the model predicts these samples.
         predicted: bool = false,
     }
 }
@@ -174,7 +174,7 @@ table! {
 table! {
     /// Places at which the surface height is measured, on every unit.
     SurfaceMap {
-        /// Number of points.
+        /// Number of contact points.
         points: u32 = 400,
     }
 }
@@ -188,33 +188,33 @@ table! {
 }
 
 table! {
-    /// Strokes along the gel until the indenter slides. A frame is labelled `slip` if the shear force is near the limit of Coulomb's friction.
+    /// Strokes along the gel until the indenter slides. A frame is labelled `slip` at a shear force near friction × normal force.
     Slip {
         /// Number of strokes, each at its own place; 0 for none.
         strokes: u32 = 0,
-        /// Speed of a stroke, in mm/s. The tip rests at each frame, so the speed sets the distance between frames.
+        /// Speed of a stroke, in mm/s. The tip rests at each frame, so the speed only determines the distance between frames.
         speed_mm_s: f64 = 5.0,
-        /// Number of frames per second of a stroke.
+        /// Number of frames per second of a stroke at this speed.
         rate_hz: f64 = 50.0,
         /// Length of a stroke, in mm.
         length_mm: f64 = 1.0,
-        /// Depth of a stroke, in mm, at most the greatest depth. A ball slides after about 1.5 times the depth times the coefficient of friction.
+        /// Depth of a stroke, in mm, at most the greatest depth. A ball slides after about 1.5 × depth × friction.
         depth_mm: f64 = 0.4,
         /// Coefficient of friction between indenter and gel; 1 on the simulated bench.
         friction: f64 = 1.0,
-        /// Number of frames from which a frame is predicted.
+        /// Number of successive frames from which the label of the last one is predicted.
         window: u32 = 5,
     }
 }
 
 table! {
-    /// Presses of the ball at drawn places and depths. The predicted place and depth of the ball give a predicted depth map.
+    /// Presses of the ball at random places and depths. A depth map is computed from the place and depth of the ball that the model predicts.
     ShapePresses {
         /// Number of presses, each at its own place; 0 for none.
         presses: u32 = 0,
         /// Number of depths of each press.
         depths: u32 = 3,
-        /// Least depth, in mm.
+        /// Least depth of a press, in mm.
         depth_min_mm: f64 = 0.1,
         /// Side of a pixel of the depth maps, in mm.
         pixel_mm: f64 = 0.25,
@@ -222,19 +222,19 @@ table! {
 }
 
 table! {
-    /// Pairs of presses of one board, between which it is shifted along the gel and turned about its axis.
+    /// Pairs of presses of one board. Within a pair, the board is shifted along the gel and turned about its axis.
     PosePairs {
         /// Number of pairs; 0 for none.
         pairs: u32 = 0,
-        /// Greatest shift along x and along y, in mm, below the spacing of the board.
+        /// Greatest shift of the board along x and along y, in mm. It must be below the spacing of the board.
         shift_mm: f64 = 0.5,
-        /// Greatest turn, in degrees.
+        /// Greatest turn of the board within a pair, in degrees.
         turn_degrees: f64 = 10.0,
-        /// Relief of the board.
+        /// Kind of grating on the board.
         kind: GratingKind = GratingKind::Dot,
         /// Spacing of the board, in mm.
         spacing_mm: f64 = 1.75,
-        /// Depth of each press, as a fraction of the greatest depth.
+        /// Depth of each press, as a share of the depth limit.
         depth_fraction: f64 = 0.5,
     }
 }

@@ -12,7 +12,7 @@ use serde::Deserialize;
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum DepthOrigin {
-    /// First reading above the threshold. It is up to one search step below the surface, and more on a soft gel.
+    /// First reading at which the force exceeds the contact threshold. It is up to one search step below the surface, and more on a soft gel.
     #[default]
     Contact,
     /// Surface of the gel, fitted to the readings before and during contact.

@@ -7,11 +7,11 @@ use serde::Deserialize;
 use crate::footprint_spec::FootprintSpec;
 use crate::text::Setting;
 
-/// A device, named by its driver.
+/// A device of a scene, named by the selector of its driver.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table with `driver`")]
 pub struct DeviceSpec {
-    /// Selector, `kind/name` or `kind/name:key=value;key=value`.
+    /// Selector of the driver: `kind/name` or `kind/name:key=value;key=value`.
     pub driver: Setting<String>,
 }
 
@@ -19,7 +19,7 @@ pub struct DeviceSpec {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table with `driver` or `scenes`")]
 pub struct LightingSpec {
-    /// Selector of the lighting device. Without a lighting device, the sensor sets the light, or otherwise the operator.
+    /// Selector of the lighting device. Without one, the sensor sets the light, or else the operator does.
     pub driver: Option<Setting<String>>,
     /// Light scenes to use, the calibration scene first. The default is all scenes of the driver. Required if the operator sets the light.
     pub scenes: Option<Setting<Vec<String>>>,
@@ -29,11 +29,11 @@ pub struct LightingSpec {
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table with `driver` or `dataset`")]
 pub struct SensorSpec {
-    /// Selector of the driver; `None` for a recording.
+    /// Selector of the driver of the sensor; `None` for a recording.
     pub driver: Option<Setting<String>>,
     /// Folder of a recording instead of a driver, relative to the scene.
     pub dataset: Option<Setting<String>>,
-    /// Names of the units to measure; by default a single unit `1`.
+    /// Names of the units to measure. If `None`, a single unit `1` is measured.
     pub units: Option<Setting<Vec<String>>>,
     /// True if ambient light cannot reach the camera; `None` if not stated.
     pub opaque: Option<Setting<bool>>,
@@ -54,9 +54,9 @@ pub struct ModelSpec {
     /// Settings of the estimator, by name.
     #[serde(default)]
     pub set: BTreeMap<String, toml::Value>,
-    /// Number of folds of the calibration points. Each point is then predicted by a model fitted on other points. `None` predicts only a test part.
+    /// Number of folds of the calibration points. A model fitted on other points predicts each point. `None` predicts only a test part.
     pub folds: Option<Setting<u32>>,
-    /// Split of the calibration points, or of a recording, such as `by-point 40/10/50`. `None` is 70 % training, 20 % validation and 10 % test.
+    /// Split of calibration points or of a recording, such as `by-point 40/10/50`. `None` gives 70 % training, 20 % validation, 10 % test.
     pub split: Option<Setting<String>>,
 }
 

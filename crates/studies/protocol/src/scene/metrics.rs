@@ -16,16 +16,16 @@ use crate::text::Setting;
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(remote = "Self", deny_unknown_fields, default)]
 pub struct MetricsSpec {
-    /// Names of metrics or groups; the default is all that apply. A metric that is named individually must apply to a sensor of the scene.
+    /// Names of metrics or groups; the default is all metrics that apply. A metric that is named individually must apply to a sensor of the scene.
     pub want: Option<Vec<Setting<String>>>,
-    /// Greatest widths of intervals by score: `"10 %"` for `mae.Fz`.
+    /// Greatest wanted widths of intervals, by score: `mae.Fz` has the value `"10 %"`.
     pub want_width: BTreeMap<String, Setting<String>>,
     /// Settings of the metrics.
     pub settings: MetricSettings,
 }
 
 impl MetricsSpec {
-    /// Wanted widths of intervals, by the names of their scores.
+    /// Wanted widths of intervals, in the order of their scores' names.
     pub fn wanted_widths(&self) -> Vec<WantedWidth> {
         let widths = self.want_width.iter();
         let widths = widths.filter_map(|(score, width)| WantedWidth::parse(score, &width.value));
@@ -54,25 +54,25 @@ impl<'de> Deserialize<'de> for MetricsSpec {
     }
 }
 
-/// Settings of the metrics. For an absent setting, the metric's default applies.
+/// Settings of the metrics. A metric uses its default for an absent setting.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default, expecting = "a table of settings")]
 pub struct MetricSettings {
-    /// Number of cells along each side of a map.
+    /// Number of cells along each side of a map of the surface.
     pub bins: Option<Setting<u32>>,
-    /// Least number of samples in a cell or bin.
+    /// Least number of samples in a cell of a map or a bin of a curve.
     pub n_min: Option<Setting<u32>>,
-    /// Least force of a press that counts in the sensitivity, in N.
+    /// Least normal force of a press from which the sensitivity is computed, in N.
     #[serde(rename = "gate_N")]
     pub gate_n: Option<Setting<f64>>,
     /// Width of the moving average of a curve, in bins, an odd number.
     pub smoothing: Option<Setting<u32>>,
-    /// Greatest error of a recognised spacing, in mm.
+    /// Greatest error at which a predicted spacing counts as recognised, in mm.
     pub tolerance_mm: Option<Setting<f64>>,
 }
 
 impl MetricSettings {
-    /// Settings, completed by the defaults of the metrics.
+    /// Settings of the scene, with the defaults of the metrics for absent ones.
     pub fn settings(&self) -> Settings {
         let default = Settings::default();
         let tolerance = self
@@ -101,16 +101,16 @@ impl MetricSettings {
     expecting = "a table with `formats`, `like` and `keep`"
 )]
 pub struct ReportSpec {
-    /// Any of [`FORMATS`](ReportSpec::FORMATS); text and JSON if empty.
+    /// Formats of the report, from [`FORMATS`](ReportSpec::FORMATS). If empty, text and JSON are written.
     pub formats: Vec<Setting<String>>,
-    /// One of [`LIKE`](ReportSpec::LIKE): published study whose table layout is also written. `None` writes no such tables.
+    /// Published study, from [`LIKE`](ReportSpec::LIKE), whose table layout is also written. `None` writes no such tables.
     pub like: Option<Setting<String>>,
-    /// Any of [`KEEP`](ReportSpec::KEEP): additional files to store in the folder of a run.
+    /// Additional files, from [`KEEP`](ReportSpec::KEEP), that are stored in the folder of a run.
     pub keep: Vec<Setting<String>>,
 }
 
 impl ReportSpec {
-    /// All formats.
+    /// All formats of a report.
     pub const FORMATS: [&'static str; 6] = ["text", "json", "csv", "md", "tex", "html"];
 
     /// Studies whose table layout is supported.

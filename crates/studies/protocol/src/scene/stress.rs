@@ -1,10 +1,10 @@
-//! Faults of the pictures of a scene.
+//! Faults that a run adds to the pictures of a scene, to test the model.
 
 use serde::Deserialize;
 
 use crate::text::Setting;
 
-/// Faults that a run gives the pictures of each test part. For an absent key, the default of `taceva stress` applies.
+/// Faults that a run adds to the pictures of each test part, to test the model. For an absent key, the default of `taceva stress` applies.
 ///
 /// The table `[stress]` of a scene sets them; callers only read them.
 ///
@@ -29,17 +29,17 @@ use crate::text::Setting;
 )]
 #[non_exhaustive]
 pub struct StressSpec {
-    /// Names of faults, or of their list; all faults if absent.
+    /// Names of faults, or of lists of faults; all faults if absent.
     pub faults: Option<Vec<Setting<String>>>,
-    /// Severities from 1 to [`MOST`](StressSpec::MOST), ascending; all if absent.
+    /// Severities of the faults, ascending, from 1 to [`MOST`](StressSpec::MOST); all if absent.
     pub severities: Option<Vec<Setting<u32>>>,
-    /// Random draws of the places of dead pixels, scratches, tears and dust; 1 if absent.
+    /// Number of random draws of the places of dead pixels, scratches, tears and dust; 1 if absent.
     pub seeds: Option<Setting<u32>>,
 }
 
-/// Fault of pictures that a plugin makes.
+/// Fault that a plugin adds to pictures.
 ///
-/// The tables `[[fault]]` of a scene set them; callers only read them.
+/// A table `[[fault]]` of a scene sets it; callers only read it.
 ///
 /// ```
 /// use taceva_protocol::Scene;
@@ -60,17 +60,17 @@ pub struct StressSpec {
 pub struct PluginFaultSpec {
     /// Name of the fault in results.
     pub name: Setting<String>,
-    /// Key of the estimator of a plugin, such as `org.example.fogged-lens/fog`.
+    /// Key of the plugin's estimator that adds the fault, such as `org.example.fogged-lens/fog`.
     pub plugin: Setting<String>,
 }
 
 impl StressSpec {
-    /// The highest severity.
+    /// Highest severity of a fault.
     pub const MOST: u32 = 5;
-    /// The greatest number of draws.
+    /// Greatest number of random draws of the places of a fault.
     pub const DRAWS: u32 = 100;
 
-    /// Severities, ascending.
+    /// Severities of the faults, ascending.
     pub fn severities(&self) -> Vec<u8> {
         let all = 1..=StressSpec::MOST;
         let wanted: Vec<u32> = match &self.severities {
@@ -81,7 +81,7 @@ impl StressSpec {
         small.collect()
     }
 
-    /// Number of draws of places.
+    /// Number of random draws of the places of a fault.
     pub fn draws(&self) -> u32 {
         self.seeds.map_or(1, |seeds| seeds.value)
     }

@@ -16,7 +16,7 @@ use crate::text::Text;
 /// A sensor with its rig, limits and model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
-    /// Name in the report. The default is the name of the scene, if the scene has one sensor.
+    /// Name of the study in the report. A scene with one sensor gives it the name of the scene by default.
     pub name: String,
     /// The sensor.
     pub sensor: SensorSpec,
@@ -26,7 +26,7 @@ pub struct Study {
     pub force: Option<DeviceSpec>,
     /// Light around the sensor; `None` if the scene states no light.
     pub lighting: Option<LightingSpec>,
-    /// Limits of the study. The defaults are the limits of the scene.
+    /// Limits of the study. The limits of the scene are the defaults.
     pub limits: LimitSpec,
     /// Model of the study; `None` for no predictions.
     pub model: Option<ModelSpec>,
@@ -39,7 +39,7 @@ pub struct Study {
 }
 
 impl Study {
-    /// Text that names sensor, robot and force transducer: the rig file if any, otherwise `scene`.
+    /// Text with the names of sensor, robot and force transducer: that of the rig file if there is one, otherwise that of `scene`.
     pub(crate) fn device_text<'a>(&'a self, scene: &'a Scene) -> &'a Text {
         match &self.rig {
             Some(rig) => &rig.text,

@@ -1,9 +1,9 @@
-//! Metrics of tasks that a scene may request, with the phase that measures each.
+//! Scores of tasks that a scene may request, with the phase whose presses they score.
 
 use super::counts::Protocol;
 use crate::phase_kind::PhaseKind;
 
-/// Scores of slip.
+/// Names of the scores of slip detection.
 const OF_SLIP: [&str; 12] = [
     "class_accuracy",
     "balanced_accuracy",
@@ -18,7 +18,7 @@ const OF_SLIP: [&str; 12] = [
     "onset_delay",
     "false_alarms",
 ];
-/// Scores of contact shapes.
+/// Names of the scores of contact shapes.
 const OF_SHAPE: [&str; 6] = [
     "depth_mae",
     "depth_rmse",
@@ -27,10 +27,10 @@ const OF_SHAPE: [&str; 6] = [
     "contact_iou",
     "normal_angle",
 ];
-/// Scores of changes of pose.
+/// Names of the scores of predicted changes of pose.
 const OF_POSE: [&str; 3] = ["pose_translation", "pose_axis", "pose_rotation"];
 
-/// Every phase of a task with its scores.
+/// Phases of tasks, with the names of their scores.
 const PHASES: [(PhaseKind, &[&str]); 3] = [
     (PhaseKind::Slip, &OF_SLIP),
     (PhaseKind::Shape, &OF_SHAPE),
@@ -50,7 +50,7 @@ pub(super) fn task_metrics() -> impl Iterator<Item = &'static str> {
     phases.flat_map(|(_, metrics)| metrics.iter().copied())
 }
 
-/// Line that requests presses of `phase`. `None` if `protocol` already has such presses, and for phases other than tasks.
+/// Line of a scene that requests presses of `phase`. `None` if `protocol` already requests some, or if the phase measures no task.
 pub(super) fn missing_line(phase: PhaseKind, protocol: &Protocol) -> Option<&'static str> {
     let (count, line) = match phase {
         PhaseKind::Slip => (&protocol.slip.strokes, "slip = { strokes = 40 }"),

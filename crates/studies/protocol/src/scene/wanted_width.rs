@@ -2,19 +2,19 @@
 
 use std::fmt;
 
-/// Wanted width of the 95 % interval of a score: upper end / lower end − 1.
+/// Wanted width of the 95 % interval of a score. The width is upper end / lower end − 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WantedWidth {
-    /// One of [`METRICS`](WantedWidth::METRICS).
+    /// Name of the metric, from [`METRICS`](WantedWidth::METRICS).
     pub metric: String,
     /// Channel or plane: `Fz`, `Pxy`.
     pub channel: String,
-    /// Greatest width: 0.1 for 10 %.
+    /// Greatest width of the interval: 0.1 for 10 %.
     pub width: f64,
 }
 
 impl WantedWidth {
-    /// Metrics whose width follows from errors by contact point: means of errors, and roots of means.
+    /// Metrics for which widths can be wanted: means of errors by contact point, and roots of such means.
     pub const METRICS: [&'static str; 2] = ["mae", "rmse"];
 
     /// Parses `mae.Fz` and `10 %`; `None` without a dot, or if the width is not a percentage from above 0 to 1000.
@@ -29,7 +29,7 @@ impl WantedWidth {
     }
 }
 
-/// Score: `mae.Fz`.
+/// Formats the score, such as `mae.Fz`.
 impl fmt::Display for WantedWidth {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}.{}", self.metric, self.channel)

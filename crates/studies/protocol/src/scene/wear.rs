@@ -1,4 +1,4 @@
-//! Cycles of load that wear the gel between measured stages.
+//! Load cycles that wear the gel between measured stages.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use crate::text::Setting;
 
-/// Load of a cycle that wears the gel. Callers only read it, and match it with `_`.
+/// Kind of load of a cycle that wears the gel. Callers only read it, and need a `_` arm to match it.
 ///
 /// ```
 /// use taceva_protocol::WearLoad;
@@ -26,10 +26,10 @@ pub enum WearLoad {
 }
 
 impl WearLoad {
-    /// All loads.
+    /// All kinds of load.
     pub const ALL: [WearLoad; 3] = [WearLoad::Compression, WearLoad::Shear, WearLoad::Abrasion];
 
-    /// Name in scenes.
+    /// Name of the kind of load in scenes.
     pub const fn name(self) -> &'static str {
         match self {
             WearLoad::Compression => "compression",
@@ -38,12 +38,12 @@ impl WearLoad {
         }
     }
 
-    /// Load with this name; `None` for an unknown name.
+    /// Finds a kind of load by `name`; `None` for an unknown name.
     pub fn from_name(name: &str) -> Option<WearLoad> {
         WearLoad::ALL.into_iter().find(|load| load.name() == name)
     }
 
-    /// Greatest distance of the tip from the middle of the sensing area, for a travel of `travel_mm`, in mm.
+    /// Greatest distance of the tip from the middle of the sensing area in a cycle, in mm. The sideways travel is `travel_mm`.
     pub(crate) fn reach_mm(self, travel_mm: f64) -> f64 {
         match self {
             WearLoad::Compression => 0.0,
@@ -59,7 +59,7 @@ impl fmt::Display for WearLoad {
     }
 }
 
-/// Cycles of load between measured stages.
+/// Load cycles that wear the gel between measured stages.
 ///
 /// The table `[protocol.wear]` of a scene sets them; callers only read them.
 ///
@@ -86,16 +86,16 @@ impl fmt::Display for WearLoad {
 )]
 #[non_exhaustive]
 pub struct WearSpec {
-    /// Name of the load.
+    /// Name of the kind of load: `compression`, `shear` or `abrasion`.
     pub load: Setting<String>,
-    /// Numbers of cycles on the gel before each stage, ascending.
+    /// Total number of cycles on the gel before each stage, ascending.
     pub cycles: Setting<Vec<u32>>,
     /// Normal force at which the tip ends its descent, in N.
     #[serde(rename = "force_N")]
     pub force_n: Setting<f64>,
     /// Sideways travel of the tip, in mm; `None` for compression.
     pub travel_mm: Option<Setting<f64>>,
-    /// Presses on the gel before the run.
+    /// Number of presses on the gel before the run.
     #[serde(default)]
     pub presses_since_gel: u32,
 }
@@ -106,7 +106,7 @@ impl WearSpec {
         self.travel_mm.as_ref().map_or(0.0, |travel| travel.value)
     }
 
-    /// The stages of a study, in order.
+    /// Stages of wear of the study with the name `study`, in order.
     pub(crate) fn stages(&self, study: &str) -> Vec<WearStage> {
         let cycles = &self.cycles.value;
         let before = std::iter::once(&0).chain(cycles);
@@ -121,7 +121,7 @@ impl WearSpec {
     }
 }
 
-/// Stage of a study of wear: the cycles that precede its measured presses.
+/// Stage of a study with wear: load cycles, followed by measured presses.
 ///
 /// ```
 /// use taceva_protocol::Scene;
@@ -139,12 +139,12 @@ impl WearSpec {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct WearStage {
-    /// Name of the study in the scene, which all its stages share.
+    /// Name of the study in the scene, common to all stages.
     pub sensor: String,
     /// Number of the stage, from 0.
     pub number: u32,
-    /// Cycles on the gel before the measured presses.
+    /// Total number of cycles on the gel before the measured presses.
     pub cycles: u32,
-    /// Cycles since the previous stage.
+    /// Number of cycles since the previous stage.
     pub added: u32,
 }

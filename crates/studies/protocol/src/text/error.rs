@@ -7,14 +7,14 @@ use taceva_core::FrameInfo;
 use crate::frame_size::FrameSize;
 use crate::reason::PlanReason;
 
-/// Error in a rejected scene.
+/// Error for which a scene or a rig file is rejected.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneError {
-    /// Name of the text, such as its file.
+    /// Name of the wrong text, such as its file.
     pub source_name: String,
-    /// Line number, counted from 1, if a single line is wrong.
+    /// Number of the wrong line, counted from 1; `None` if no single line is wrong.
     pub line: Option<u64>,
-    /// Problem.
+    /// Problem that was found.
     pub problem: Box<SceneProblem>,
 }
 
@@ -40,7 +40,7 @@ pub enum SceneProblem {
     /// The text is too large.
     #[error("the scene has {bytes} bytes, expected at most {greatest}")]
     Size {
-        /// Size, in bytes.
+        /// Size of the text, in bytes.
         bytes: usize,
         /// Greatest accepted size, in bytes.
         greatest: usize,
@@ -52,7 +52,7 @@ pub enum SceneProblem {
         key: String,
         /// Most similar known key, if any is similar.
         nearest: Option<String>,
-        /// All known keys.
+        /// All known keys of the table.
         known: String,
     },
     /// A required key is missing.
@@ -64,7 +64,7 @@ pub enum SceneProblem {
     /// The rig file has an unknown version.
     #[error("rig version {0} is not supported, expected 1")]
     RigVersion(u32),
-    /// A name is not in a fixed list.
+    /// A name is not among the known names.
     #[error("`{name}`: unknown {what}{}; known: {known}{}", did_you_mean(.nearest), found_where(.what, .name))]
     UnknownName {
         /// Kind of item: `driver of a sensor`, `metric`, `report format`.
@@ -79,7 +79,7 @@ pub enum SceneProblem {
     /// A name occurs twice.
     #[error("`{name}` is the name of two {what}: give each its own name", name = taceva_core::shown(name))]
     Twice {
-        /// Kind of item, such as a unit.
+        /// Kind of the named item, such as `units`.
         what: &'static str,
         /// The name.
         name: String,
@@ -87,7 +87,7 @@ pub enum SceneProblem {
     /// A count is out of range.
     #[error("`{key}` is {found}, expected a whole number from {least} to {greatest}")]
     Count {
-        /// The key.
+        /// Key of the count.
         key: &'static str,
         /// Value as written.
         found: u64,
@@ -99,11 +99,11 @@ pub enum SceneProblem {
     /// A number is out of range.
     #[error("`{key}` is {found}, expected a number above {above} and up to {greatest}")]
     Range {
-        /// The key.
+        /// Key of the number.
         key: &'static str,
         /// Value as written.
         found: f64,
-        /// Exclusive lower bound.
+        /// Exclusive lower bound of accepted values.
         above: f64,
         /// Greatest accepted value.
         greatest: f64,
@@ -126,9 +126,9 @@ pub enum SceneProblem {
     FramesEnlarged {
         /// Value as written.
         found: FrameSize,
-        /// The study.
+        /// Name of the study.
         study: String,
-        /// Frames of the sensor of the study.
+        /// Size and format of the frames of the study's sensor.
         frame: FrameInfo,
     },
     /// Stored frames would have fewer pixels than the grid of a model.
@@ -140,27 +140,27 @@ pub enum SceneProblem {
         found: FrameSize,
         /// Name of the model.
         who: String,
-        /// Number of grid cells along x.
+        /// Number of cells along x of the grid into which the model divides a frame.
         least_width: u32,
-        /// Number of grid cells along y.
+        /// Number of cells along y of the grid into which the model divides a frame.
         least_height: u32,
     },
-    /// A limit exceeds the limit of the device or of the scene.
+    /// A limit in a scene or rig file exceeds that of the device, or that of an outer file or table.
     #[error("`{key}` is {found}, but {who} allows at most {limit}: limits may only be tightened")]
     LimitLoosened {
-        /// The key.
+        /// Key of the limit.
         key: &'static str,
         /// Value as written.
         found: f64,
         /// Device or file with the tighter limit.
         who: String,
-        /// Tighter limit.
+        /// Value of the tighter limit.
         limit: f64,
     },
     /// A length or force of the protocol exceeds a limit.
     #[error("`{key}` is {found}, beyond the limit `{limit_key}` = {limit} ({who})")]
     BeyondLimit {
-        /// The key.
+        /// Key of the length or force.
         key: &'static str,
         /// Value as written.
         found: f64,
@@ -177,7 +177,7 @@ pub enum SceneProblem {
         /// Key of the limit.
         key: &'static str,
     },
-    /// The catalogue has no such boards.
+    /// A requested board is not in the catalogue of boards.
     #[error("gratings of {found} mm are not in the catalogue: {catalogue}")]
     Grating {
         /// Spacing as written, in mm.
@@ -190,9 +190,9 @@ pub enum SceneProblem {
         "`{simulated}` uses simulated time and `{real}` uses the clock of this machine, but a rig has one clock: choose both devices simulated or both real; a real sensor may be used with a simulated robot, and its recording is then `simulated`"
     )]
     MixedClocks {
-        /// The simulated device.
+        /// Name of the simulated device.
         simulated: String,
-        /// The real device.
+        /// Name of the real device.
         real: String,
     },
     /// A robot moves in its base frame, whose pose relative to the sensor is unknown.
@@ -200,7 +200,7 @@ pub enum SceneProblem {
         "the robot `{robot}` moves in its base frame, whose pose relative to the gel is unknown: write a rig file with `origin_mm` and `axes` under [robot] and name it by `rig = \"lab.toml\"` or --rig (docs/rig.md)"
     )]
     Unmapped {
-        /// The robot.
+        /// Name of the robot.
         robot: String,
     },
     /// The robot of a rig file found no contact in its descent to the gel.
@@ -214,11 +214,11 @@ pub enum SceneProblem {
     /// The measured forces contradict the axes in a rig file.
     #[error("`axes` of [force]: {felt}{}", mended(.expected, *.may_be_robot))]
     AxesContradicted {
-        /// Directions of the motions and of the measured forces.
+        /// Text with the directions of the motions and of the measured forces.
         felt: String,
         /// Axes that would agree; `None` if no rotation by right angles agrees.
         expected: Option<String>,
-        /// True if the robot itself may have moved in another direction.
+        /// True if the axes of the robot may be wrong instead of those of the transducer.
         may_be_robot: bool,
     },
     /// A robot takes too long to come to rest after an exceeded limit.
@@ -226,16 +226,16 @@ pub enum SceneProblem {
         "`{robot}` needs {stop_ms} ms to stop, so it stops {needed_ms:.0} ms after a limit is exceeded: expected at most {greatest_ms:.0} ms"
     )]
     SlowStop {
-        /// The robot.
+        /// Name of the robot.
         robot: String,
-        /// Stated stop time, in ms.
+        /// Stop time that the robot states, in ms.
         stop_ms: f64,
-        /// Stop time plus one reading and one message, in ms.
+        /// Stop time plus the times for one reading of the transducer and one message, in ms.
         needed_ms: f64,
         /// Greatest allowed time, in ms.
         greatest_ms: f64,
     },
-    /// The tip would travel too far in contact before its force counts as stale.
+    /// In contact, the tip would travel too far before a reading counts as stale.
     #[error(
         "`speed_mm_s` is {found}, but {who} times out only after {stale_ms:.0} ms without a reading: expected at most {greatest:.3}"
     )]
@@ -256,12 +256,12 @@ pub enum SceneProblem {
     FrozenUnseen {
         /// Name of the transducer.
         who: String,
-        /// Resolution, in N.
+        /// Resolution of the transducer, in N.
         resolution_n: f64,
-        /// Noise, in N.
+        /// Noise of the transducer at rest: one standard deviation, in N.
         noise_n: f64,
     },
-    /// Contradictory statements.
+    /// Statements of a scene, a rig file or a device contradict each other.
     #[error("{0}")]
     Contradiction(String),
     /// The scene has nothing to measure.
@@ -270,9 +270,9 @@ pub enum SceneProblem {
     /// A metric requested by name applies to no study of the scene.
     #[error("`{metric}` can never apply: {reason}", metric = taceva_core::shown(metric))]
     NeverApplies {
-        /// The metric.
+        /// Name of the metric.
         metric: String,
-        /// Reason.
+        /// Reason why the metric does not apply.
         reason: PlanReason,
     },
     /// The plan has too many presses.
@@ -280,7 +280,7 @@ pub enum SceneProblem {
     TooManyPresses {
         /// Number of presses.
         found: u64,
-        /// Greatest number of presses.
+        /// Greatest accepted number of presses.
         greatest: u64,
     },
 }
@@ -307,7 +307,7 @@ fn did_you_mean(nearest: &Option<String>) -> String {
     })
 }
 
-/// Hint for a driver of a plugin, whose name `ID/KEY` has dots in the id; empty for other names.
+/// Hint for an unknown driver of a plugin, whose name `ID/KEY` has dots in the id; empty for other names.
 fn found_where(what: &str, name: &str) -> &'static str {
     let is_of_plugin = name.split_once('/').is_some_and(|(id, _)| id.contains('.'));
     if what.starts_with("driver of") && is_of_plugin {

@@ -1,8 +1,8 @@
-//! A value of a scene with its position in the text. Later errors can thereby name the line.
+//! A value of a scene with its position in the text, so that later errors can name the line.
 
 use serde::{Deserialize, Deserializer};
 
-/// A value with its byte offset in the scene; a default has no offset.
+/// A value of a scene or rig file with its byte offset in the text; a default value has no offset.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Setting<T> {
     /// The value.
@@ -16,12 +16,12 @@ impl<T> Setting<T> {
         Setting { value, at: None }
     }
 
-    /// Byte offset in the scene; `None` for a default.
+    /// Byte offset of the value in the text; `None` for a default value.
     pub const fn at(&self) -> Option<usize> {
         self.at
     }
 
-    /// Applies `change` to the value, and keeps the position.
+    /// Applies `change` to the value, and keeps its position.
     pub fn map<U>(self, change: impl FnOnce(T) -> U) -> Setting<U> {
         Setting {
             value: change(self.value),

@@ -60,7 +60,7 @@ fn rig() -> RigInfo {
     }
 }
 
-/// Plan of the metrics `want`; of all metrics if empty.
+/// Plan of a scene that requests the metrics `want`; of all metrics if `want` is empty.
 fn planned(want: &[&str]) -> Plan {
     let metrics = match want {
         [] => String::new(),
@@ -71,7 +71,7 @@ fn planned(want: &[&str]) -> Plan {
     plan(&scene, |_| source.clone()).expect("a plan").remove(0)
 }
 
-/// A simulated error from −1 to 1 that depends on the press, the sample and the purpose.
+/// A simulated error from −1 to 1 that is fixed by the press, the number of the sample and the number `purpose`.
 fn error(planned: &PlannedPress, number: u32, purpose: u64) -> f64 {
     let id = planned.id.to_string();
     let press = u64::from_str_radix(&id[..16], 16).expect("hexadecimal");
@@ -79,7 +79,7 @@ fn error(planned: &PlannedPress, number: u32, purpose: u64) -> f64 {
     f64::from(u32::try_from(bits >> 32).expect("32 bits")) / f64::from(1_u32 << 31) - 1.0
 }
 
-/// Samples of a press with every field and the channels of `plan`, simulated by a spring.
+/// Samples of a press with every field and the channels of `plan`. Their forces are those of a linear spring.
 fn samples(plan: &Plan, planned: &PlannedPress) -> Vec<Sample> {
     let press = &planned.press;
     let count = u32::try_from(press.samples()).expect("few");
@@ -139,7 +139,7 @@ fn samples(plan: &Plan, planned: &PlannedPress) -> Vec<Sample> {
     (0..count).map(sample).collect()
 }
 
-/// Scores of `plan` on its own presses, each metric on its part of the protocol and with only the fields of the plan.
+/// Scores of `plan` on the simulated samples of its presses. Each metric reads only its own phase and the fields of the plan.
 fn evaluate(plan: &Plan) -> Evaluation {
     let parts = plan.phases.iter().map(|phase| {
         let of_phase = plan.metrics.iter().filter(|metric| metric.phase == *phase);
@@ -234,7 +234,7 @@ fn scores_of_the_simulated_samples_are_numbers() {
     assert!(undefined.is_empty(), "{undefined:#?}");
 }
 
-/// The score without its standing in verdicts, which depends on the skill that a study adds.
+/// Copy of `score` without its standing in verdicts, which depends on the skill metric that a study adds.
 fn apart_from_standing(score: &Score) -> Score {
     let mut score = score.clone();
     score.standing = Standing::default();

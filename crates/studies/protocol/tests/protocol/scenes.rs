@@ -27,7 +27,7 @@ fn message(text: &str) -> String {
     Scene::parse("s.toml", text).expect_err("wrong").to_string()
 }
 
-/// The valid scene with `line` added as line 9.
+/// Message for the valid scene with `line` added as line 9, which is wrong.
 fn with(line: &str) -> String {
     message(&format!("{GOOD}{line}\n"))
 }
@@ -68,7 +68,7 @@ fn rig() -> RigInfo {
     }
 }
 
-/// Result of planning the valid scene with `lines` added.
+/// Text of the plans for the valid scene with `lines` added, on `rig`, or of the error.
 fn planned(lines: &str, rig: RigInfo) -> String {
     let scene = Scene::parse("s.toml", &format!("{GOOD}{lines}\n")).expect("reads");
     let source = SourceInfo::Rig(Box::new(rig));

@@ -1,4 +1,4 @@
-//! Pareto front of models: processor time of the fit against error.
+//! Pareto front of models, by processor time of the fit and by error.
 //!
 //! A faster model beats a slower model on a channel, unless the slower model is shown to be more accurate. Accuracy is shown if the 95 % interval of
 //! the difference of mean absolute errors, paired by contact point, is below 0.
@@ -8,10 +8,10 @@ use taceva_metrics::ClusterSums;
 use super::models::ModelTrial;
 use super::paired_errors::difference;
 
-/// A model of a race, and the sums of its absolute errors by contact point for each channel; `None` for a channel without contact points.
+/// A model of a benchmark. For each channel, it has the sums of absolute errors by contact point; `None` for a channel without contact points.
 pub(super) type Raced = (ModelTrial, Vec<Option<ClusterSums>>);
 
-/// Records in each error the models that beat the model with this error; records none if the system does not report processor time.
+/// Records for each model and channel the names of the models that beat it there. Records none if the system does not report processor time.
 pub(super) fn mark(race: &mut [Raced]) {
     let marks: Vec<Vec<Vec<String>>> = race
         .iter()
@@ -53,7 +53,7 @@ mod tests {
     use super::super::models::TrialError;
     use super::*;
 
-    /// Test model with the errors `errors` at ten contact points.
+    /// Test model with the error `errors(point)` at each of ten contact points.
     fn raced(model: &str, fit_cpu_s: f64, errors: impl Fn(u8) -> f64) -> Raced {
         let mut sums = ClusterSums::default();
         for point in 0..10_u8 {

@@ -1,4 +1,4 @@
-//! Summation kernels raced on the same columns: time per pair of values against correct digits.
+//! Race of summation kernels on the same columns: time per pair of values, and number of correct digits.
 
 use serde::Serialize;
 use taceva_core::Progress;
@@ -10,25 +10,25 @@ use taceva_metrics::{Isa, Paired};
 use super::{BENCH_SCHEMA, Machine, Spread, Stopwatch};
 use taceva_evaluate::EvaluateError;
 
-/// Channels of the timed columns: the six contact channels.
+/// Number of channels of the timed columns: the six contact channels Px, Py, Pz, Fx, Fy and Fz.
 const CHANNELS: usize = 6;
-/// Values typical of a laboratory: positions in mm with errors of about 0.3 mm.
+/// Kind of values for the columns, typical of a laboratory: positions in mm with errors of about 0.3 mm.
 const LAB: Kind = Kind::Lab {
     low: -12.5,
     high: 12.5,
     noise: 0.3,
 };
-/// Number of shuffles that must not change an order-free result.
+/// Number of shuffles of the rows for the test of an order-free kernel.
 const SHUFFLES: u64 = 3;
 
-/// Request of a race.
+/// Request of a race of summation kernels.
 #[derive(Clone, Copy, Debug)]
 pub struct KernelRequest {
     /// Number of timed rows in each of the six contact channels.
     pub rows: usize,
-    /// Number of timed runs of each candidate.
+    /// Number of timed runs of each kernel.
     pub rounds: usize,
-    /// Seed of the columns and shuffles.
+    /// Seed of the random columns and of their shuffles.
     pub seed: u64,
 }
 
@@ -43,7 +43,7 @@ impl Default for KernelRequest {
     }
 }
 
-/// Run time against error of every summation kernel, with the schema [`BENCH_SCHEMA`].
+/// Run time and error of every summation kernel, with the schema [`BENCH_SCHEMA`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct KernelBench {
     /// Always [`BENCH_SCHEMA`].
@@ -54,29 +54,29 @@ pub struct KernelBench {
     pub machine: Machine,
     /// Number of timed rows in each of the six contact channels.
     pub rows_timed: usize,
-    /// Number of timed runs of each candidate.
+    /// Number of timed runs of each kernel.
     pub rounds: usize,
-    /// Time to sum the columns once, as the lower limit of any kernel.
+    /// Time to sum the columns once, which is the lower limit for any kernel.
     pub floor: Floor,
-    /// One row for each candidate, in the order of the race.
+    /// Rows of the kernels, in the order of the race. A kernel has one row for all scores, and one for the mean absolute error alone.
     pub rows: Vec<KernelRow>,
 }
 
-/// Time to sum both columns once: the lower limit of any kernel.
+/// Time to sum the columns of truth and prediction once: the lower limit for any kernel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Floor {
     /// Always `stream sum`.
     pub name: &'static str,
-    /// Nanoseconds for each pair of values, wall time.
+    /// Wall time for each pair of values, in nanoseconds.
     pub ns_per_pair: Spread,
-    /// Nanoseconds for each pair of values, processor time of the thread; `None` if the system does not report it.
+    /// Processor time of the thread for each pair of values, in nanoseconds; `None` if the system does not report it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thread_ns_per_pair: Option<Spread>,
-    /// Best throughput, in GB/s.
+    /// Throughput of the shortest run, in GB/s.
     pub gb_per_s: f64,
 }
 
-/// One summation kernel.
+/// Time and accuracy of one summation kernel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct KernelRow {
     /// Name of the kernel.
@@ -84,35 +84,35 @@ pub struct KernelRow {
     /// Instruction set that the kernel was compiled for, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub isa: Option<String>,
-    /// Scores computed: `mae r2 smape`, or `mae`.
+    /// Scores that the kernel computes: `mae r2 smape`, or `mae`.
     pub scores: &'static str,
-    /// Nanoseconds for each pair of values, wall time.
+    /// Wall time for each pair of values, in nanoseconds.
     pub ns_per_pair: Spread,
-    /// Nanoseconds for each pair of values, processor time of the thread; `None` if the system does not report it.
+    /// Processor time of the thread for each pair of values, in nanoseconds; `None` if the system does not report it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thread_ns_per_pair: Option<Spread>,
-    /// Best time relative to the best time of [`Floor`], which only sums the columns.
+    /// Shortest wall time divided by the shortest wall time of [`Floor`], which only sums the columns.
     pub times_floor: f64,
-    /// Least number of correct digits over all scores and inputs.
+    /// Least number of correct decimal digits, over all scores of the kernel and all inputs.
     pub digits_min: f64,
-    /// Least number of correct digits over the scores of the kernel, for each input.
+    /// Least number of correct decimal digits over the scores of the kernel, for each input.
     pub digits: Vec<InputDigits>,
-    /// True if the result has the same bits in any order of rows.
+    /// True if the scores have the same bits for any order of rows.
     pub order_free: bool,
-    /// True if no other candidate for the same scores is both faster and at least as accurate.
+    /// True if no other kernel for the same scores is faster with at least as many correct digits.
     pub pareto: bool,
 }
 
-/// Accuracy of a candidate on one input.
+/// Accuracy of a kernel on one input.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct InputDigits {
-    /// Name of the input.
+    /// Name of the input: a kind of columns that is difficult to sum.
     pub input: &'static str,
-    /// Least number of correct digits over the scores of the candidate.
+    /// Least number of correct decimal digits over the scores of the kernel.
     pub digits: f64,
 }
 
-/// One candidate of the race.
+/// One kernel of the race, for all scores or for the mean absolute error alone.
 #[derive(Clone, Copy)]
 struct Candidate {
     kernel: Kernel,
@@ -131,7 +131,7 @@ impl Candidate {
         }
     }
 
-    /// Least number of correct digits among the scores that have a value.
+    /// Least number of correct decimal digits among the scores for which `truth` has a value.
     fn digits(self, pairs: Paired<&[f64]>, truth: &Scores) -> f64 {
         let found = self.run(pairs);
         let scores = [
@@ -232,7 +232,7 @@ fn candidates() -> Vec<Candidate> {
     full.chain(mae).collect()
 }
 
-/// Six channels with values typical of a laboratory.
+/// Truth and prediction of six channels, with values typical of a laboratory.
 fn columns(request: &KernelRequest) -> Vec<Paired<Vec<f64>>> {
     (0..CHANNELS as u64)
         .map(|channel| {
@@ -326,7 +326,7 @@ fn as_slices(columns: &Paired<Vec<f64>>) -> Paired<&[f64]> {
     columns.as_slices()
 }
 
-/// Marks candidates on the Pareto front. No other candidate for the same scores is faster with at least as many digits.
+/// Marks the kernels on the Pareto front: no other kernel for the same scores is faster with at least as many digits.
 fn mark_pareto(rows: &mut [KernelRow]) {
     let beaten: Vec<bool> = rows
         .iter()

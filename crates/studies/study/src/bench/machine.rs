@@ -1,4 +1,4 @@
-//! Machine of a benchmark, needed to compare its numbers.
+//! Machine that ran a benchmark. Times of different machines cannot be compared.
 
 use serde::Serialize;
 
@@ -11,7 +11,7 @@ pub struct Machine {
     pub cores: usize,
     /// Number of threads of the benchmark.
     pub threads: usize,
-    /// Instruction sets with their own code path, the widest first.
+    /// Instruction sets for which the program has its own code, the widest vectors first.
     pub isa: Vec<String>,
     /// Mean number of runnable processes per core in the last minute; `None` if the system does not report it.
     pub load: Option<f64>,

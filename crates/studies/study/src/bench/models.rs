@@ -1,4 +1,4 @@
-//! Models raced on one recording: time of fitting, predicting and a single prediction, against error.
+//! Race of models on one recording: times of the fit, of predictions and of a single prediction, and the errors.
 
 use std::num::NonZeroUsize;
 use std::time::Instant;
@@ -19,25 +19,25 @@ use taceva_evaluate::{DataPart, Divided};
 use taceva_evaluate::{FitRequest, fit};
 use taceva_evaluate::{Predicted, Target, model_extractor, predict_target};
 
-/// Metric of the comparison.
+/// Metric by which models are compared.
 const METRIC: &str = "mae";
-/// Number of frames predicted individually, to measure latency.
+/// Number of frames that are predicted one by one, to measure latency.
 const SINGLES: usize = 50;
 
 /// Cost and error of one model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModelTrial {
-    /// Name in the registry.
+    /// Name of the model in the registry of models.
     pub model: String,
-    /// Settings as `key=value`; for `auto`, also the chosen model.
+    /// Settings of the model as `key=value`; for `auto`, also the chosen model.
     pub settings: Vec<String>,
-    /// Time of the fit including features, in s.
+    /// Wall time of the first fit, including the computation of features, in s.
     pub fit_s: f64,
-    /// Least processor time of the fit over all rounds, including features, in s. `None` if the system does not report processor time.
+    /// Least processor time of a fit over all rounds, with the computation of features, in s. `None` if the system does not report it.
     pub fit_cpu_s: Option<f64>,
-    /// Time to predict the whole test part including features, in s.
+    /// Wall time to predict the whole test part, including the computation of features, in s.
     pub predict_s: f64,
-    /// Median time from one decoded frame to its prediction, in s, over frames predicted individually.
+    /// Median time from a decoded frame to its prediction, in s, over frames that are predicted one by one.
     pub latency_s: f64,
     /// Error of each channel on the test part; empty if the model could not be fitted.
     pub errors: Vec<TrialError>,
@@ -45,46 +45,46 @@ pub struct ModelTrial {
     pub failed: Option<String>,
 }
 
-/// Mean absolute error of one channel.
+/// Mean absolute error of a model on one channel, over the test part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrialError {
     /// Name of the channel.
     pub channel: String,
-    /// Unit of the error and its interval.
+    /// Unit of the mean absolute error and its interval.
     pub unit: Unit,
     /// The mean absolute error.
     pub mae: f64,
-    /// 95 % interval of the error, with contact points as clusters; `None` if there are too few points.
+    /// 95 % interval of the mean absolute error, with contact points as clusters; `None` if there are too few points.
     pub ci95: Option<[f64; 2]>,
-    /// Number of samples.
+    /// Number of scored samples.
     pub n: u64,
-    /// Models of the race that beat this model on the channel. Such a model has a fit with less processor time, and this model is not shown to be
-    /// more accurate. Accuracy is shown if the 95 % interval of the difference of errors, paired by contact point, is below 0. Empty on the Pareto
-    /// front.
+    /// Names of models that beat this model on the channel; empty on the Pareto front. A model beats this one if its fit takes less processor time,
+    /// unless this model is shown to be more accurate. That is shown if the 95 % interval of the difference of errors, this minus the other, is below
+    /// 0. Errors are paired by contact point.
     pub beaten_by: Vec<String>,
 }
 
 impl ModelTrial {
-    /// Name with its settings.
+    /// Name of the model with its settings.
     pub(super) fn words(&self) -> String {
         let words = [std::slice::from_ref(&self.model), &self.settings].concat();
         words.join(" ")
     }
 }
 
-/// A race of models.
+/// A race of models on one recording.
 #[derive(Clone, Copy, Debug)]
 pub struct ModelRace<'a> {
     /// Requests, one for each model, all with the same split and seed.
     pub requests: &'a [FitRequest],
-    /// Number of fits of each model. The models take turns.
+    /// Number of fits of each model. Each round fits every model once.
     pub rounds: NonZeroUsize,
 }
 
-/// Division of the recording, and the results of all models.
+/// Split of the recording into parts, and the results of all models.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModelTrials {
-    /// Division, such as `by-point 70/20/10, seed 0`.
+    /// Split, such as `by-point 70/20/10, seed 0`.
     pub split: String,
     /// Number of samples in the training part.
     pub train: usize,
@@ -94,8 +94,8 @@ pub struct ModelTrials {
     pub rows: Vec<ModelTrial>,
 }
 
-/// Fits and scores every model of `race` on the same split of `dataset`. Further rounds repeat only the fits, and each model keeps its least
-/// processor time.
+/// Fits and scores every model of `race` on the same split of `dataset`. Further rounds repeat only the fits. The least processor time over all
+/// rounds is kept.
 ///
 /// A model that cannot be fitted on this recording becomes a row with the reason.
 ///
@@ -176,7 +176,7 @@ fn trial(
     Ok((row, sums))
 }
 
-/// Reason why a model could not be fitted or scored. Returns the error itself if the whole race must end.
+/// Reason why a model could not be fitted or scored; `None` if it was. An error for which the whole race must end is returned as an error.
 pub(super) fn unfitted(
     outcome: Result<(), EvaluateError>,
 ) -> Result<Option<String>, EvaluateError> {
@@ -292,7 +292,7 @@ impl Raced {
     }
 }
 
-/// Median time from a decoded frame or its signals to the prediction, in s.
+/// Median time from a decoded frame, or from the signals of a sample, to the prediction, in s.
 fn latency(
     dataset: &Dataset,
     model: &Model,

@@ -4,7 +4,7 @@ use taceva_metrics::{ClusterSums, Difference, Sides, SignFlip};
 
 use taceva_evaluate::Predicted;
 
-/// Sums of absolute errors by contact point, for each channel; `None` if the samples have no contact points.
+/// Sums of the absolute errors in `predicted` by contact point, for each channel; `None` if the samples have no contact points.
 pub(super) fn absolute_errors(predicted: &Predicted) -> Vec<Option<ClusterSums>> {
     let of = |position: usize| {
         let points = predicted.points()?;
@@ -21,7 +21,7 @@ pub(super) fn absolute_errors(predicted: &Predicted) -> Vec<Option<ClusterSums>>
     (0..predicted.channels().len()).map(of).collect()
 }
 
-/// Mean error of `a` minus mean error of `b`; `None` without contact points, or with too few of them.
+/// Mean absolute error of `a` minus that of `b`, tested by contact point; `None` without contact points, or with too few of them.
 pub(super) fn difference([a, b]: [Option<&ClusterSums>; 2]) -> Option<Difference> {
     SignFlip::default().test(Sides { a: a?, b: b? }).ok()
 }

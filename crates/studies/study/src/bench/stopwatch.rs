@@ -1,4 +1,4 @@
-//! Times of several candidates, measured in turns, so that a disturbance affects all candidates.
+//! Times of several candidates, measured in turns, so that a disturbance of the machine affects all candidates.
 
 use std::time::{Duration, Instant};
 
@@ -7,14 +7,14 @@ use serde::Serialize;
 /// Best and median of several times.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
-    /// Shortest time, least affected by disturbances.
+    /// Shortest time, which disturbances of the machine affect least.
     pub best: f64,
     /// Median time.
     pub median: f64,
 }
 
 impl Spread {
-    /// Spread of `values`; `None` if `values` is empty.
+    /// Best and median of `values`; `None` if `values` is empty.
     pub fn of(values: &[f64]) -> Option<Spread> {
         let mut sorted = values.to_vec();
         sorted.sort_by(f64::total_cmp);
@@ -34,7 +34,7 @@ impl Spread {
     }
 }
 
-/// Times of each candidate for each round, in s.
+/// Times of every candidate in every round, in s.
 #[derive(Clone, Debug)]
 pub struct Stopwatch {
     wall: Vec<Vec<f64>>,
@@ -42,10 +42,10 @@ pub struct Stopwatch {
 }
 
 impl Stopwatch {
-    /// Runs all candidates once untimed, then `rounds` times in turns.
+    /// Runs all candidates once without timing them. Then times each of them once in each of `rounds` rounds.
     ///
-    /// `run` receives the index of a candidate. After each candidate, `go_on` returns true to continue. If it returns false, the measured times are
-    /// kept.
+    /// `run` receives the index of a candidate. After each candidate, `go_on` returns true to continue. If it returns false, the race ends and keeps
+    /// the measured times.
     pub fn race(
         candidates: usize,
         rounds: usize,
@@ -71,12 +71,12 @@ impl Stopwatch {
         watch
     }
 
-    /// Wall time in s; `None` for a candidate that was never timed.
+    /// Best and median wall time of `candidate`, in s; `None` if it was never timed.
     pub fn wall(&self, candidate: usize) -> Option<Spread> {
         Spread::of(&self.wall[candidate])
     }
 
-    /// Processor time of the calling thread in s; `None` if the system does not report it.
+    /// Best and median processor time of the calling thread for `candidate`, in s; `None` if the system does not report it.
     pub fn thread(&self, candidate: usize) -> Option<Spread> {
         Spread::of(&self.thread[candidate])
     }
@@ -90,17 +90,17 @@ fn timed(run: impl FnOnce()) -> (Duration, Option<Duration>) {
     (wall, thread.and_then(|(end, start)| end.checked_sub(start)))
 }
 
-/// Total processor time of all threads of this process; `None` if the system does not report it.
+/// Processor time that all threads of this process have used; `None` if the system does not report it.
 pub(super) fn process_time() -> Option<Duration> {
     clock(Clock::Process)
 }
 
-/// Total processor time of the calling thread; `None` if the system does not report it.
+/// Processor time that the calling thread has used; `None` if the system does not report it.
 fn thread_time() -> Option<Duration> {
     clock(Clock::Thread)
 }
 
-/// Scope of processor time.
+/// Scope of a processor time: the process or one thread.
 #[derive(Clone, Copy)]
 enum Clock {
     Process,

@@ -1,4 +1,4 @@
-//! Whole studies on the simulated bench: processor time against the widths and the coverage of the intervals of their errors.
+//! Benchmark of whole studies on the simulated bench: processor time, and the widths and coverage of the intervals of errors.
 
 use std::path::Path;
 
@@ -14,9 +14,9 @@ use super::{BENCH_SCHEMA, Machine};
 use crate::error::StudyError;
 use crate::run::{Existing, RunFolder, RunSetup, acquire_scene, run_scene};
 
-/// Metric of the comparison.
+/// Metric by which studies are compared.
 const METRIC: &str = "mae";
-/// Channels and planes of a benchmark of studies.
+/// Channels, and planes of two channels, that a benchmark of studies scores.
 pub const STUDY_CHANNELS: [&str; 4] = ["Pz", "Fz", "Pxy", "Fxy"];
 
 /// Whole studies with their times and errors, with the schema [`BENCH_SCHEMA`].
@@ -28,33 +28,33 @@ pub struct StudyBench {
     pub subject: &'static str,
     /// Machine that ran the benchmark.
     pub machine: Machine,
-    /// Name of the scene.
+    /// Name of the benchmarked scene.
     pub scene: String,
-    /// Name of the study.
+    /// Name of the benchmarked study.
     pub study: String,
     /// Seed of all random draws of the first repetition; each further repetition has the next seed.
     pub seed: u64,
-    /// Number of repetitions of each study.
+    /// Number of repetitions of each combination, with one seed each.
     pub seeds: u32,
-    /// One row for each combination, in the order of the entries.
+    /// Rows, one for each combination of points, folds and model, in the order of the entries.
     pub rows: Vec<StudyTrial>,
 }
 
-/// Time and errors of one study, or of its repetitions.
+/// Times and errors of one combination, over its repetitions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StudyTrial {
-    /// Points, folds and model.
+    /// Number of points, number of folds, and model.
     #[serde(flatten)]
     pub variant: StudyVariant,
-    /// Processor time of this process for the presses of one repetition, in s. `None` if the system does not report processor time.
+    /// Processor time of this process for the presses, in s, as a mean over repetitions. `None` if the system does not report processor time.
     pub press_cpu_s: Option<f64>,
-    /// Processor time of this process for fits, predictions and scores, in s; `None` if the system does not report it.
+    /// Processor time of this process for fits, predictions and scores, in s, as a mean over repetitions. `None` if the system does not report it.
     pub assess_cpu_s: Option<f64>,
-    /// Number of clusters of contact points behind the intervals, at most 64; `None` without intervals.
+    /// Greatest number of clusters behind an interval of the first repetition, at most 64; `None` without intervals.
     pub clusters: Option<usize>,
-    /// Error of each channel in the first repetition; empty if the model could not be fitted.
+    /// Mean absolute error of each channel or plane in the first repetition; empty if the model could not be fitted.
     pub errors: Vec<StudyChannel>,
-    /// Mean of the widths of all channels and repetitions; `None` if a width is missing.
+    /// Mean of [`StudyChannel::width`] over all channels and repetitions; `None` if a width is missing.
     pub mean_width: Option<f64>,
     /// True if no other row has both less processor time and a lower mean width. False without time or width.
     pub pareto: bool,
@@ -62,27 +62,27 @@ pub struct StudyTrial {
     pub failed: Option<String>,
 }
 
-/// Mean absolute error of one channel or plane.
+/// Mean absolute error of a study on one channel or plane.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StudyChannel {
     /// Name of the channel or plane.
     pub channel: String,
-    /// Unit of the error and its interval.
+    /// Unit of the mean absolute error and its interval.
     pub unit: Unit,
     /// Mean absolute error.
     pub mae: f64,
-    /// 95 % interval by contact point; `None` with too few points.
+    /// 95 % interval of the mean absolute error, with contact points as clusters; `None` if there are too few points.
     pub ci95: Option<[f64; 2]>,
-    /// Logarithmic width of the interval: ln(upper end / lower end). `None` without an interval, or if it reaches 0.
+    /// Logarithmic width of the interval: ln(upper end / lower end). `None` without an interval, or if the lower end is 0.
     pub width: Option<f64>,
-    /// Number of samples.
+    /// Number of scored samples.
     pub n: u64,
     /// Coverage of the intervals of all repetitions; `None` for a single repetition, or without intervals.
     pub coverage: Option<StudyCoverage>,
 }
 
 impl StudyBench {
-    /// JSON with the schema [`BENCH_SCHEMA`].
+    /// Formats the benchmark as JSON with the schema [`BENCH_SCHEMA`].
     pub fn json(&self) -> String {
         let text = serde_json::to_string_pretty(self).expect("texts and finite numbers are JSON");
         text + "\n"
@@ -90,7 +90,7 @@ impl StudyBench {
 }
 
 impl StudyTrial {
-    /// Processor time of the whole study, in s; `None` if the system does not report it.
+    /// Processor time of the whole study, in s, as a mean over repetitions; `None` if the system does not report it.
     pub fn cpu_s(&self) -> Option<f64> {
         Some(self.press_cpu_s? + self.assess_cpu_s?)
     }
@@ -109,8 +109,8 @@ impl StudyTrial {
     }
 }
 
-/// Runs the study of each of `entries` with each of its seeds, without a cache. A seed is planned right before its presses. Each run replaces the run
-/// in the folder at `folder`.
+/// Runs the study of each of `entries` with each of its seeds, without a cache. The scene of a seed is planned immediately before its presses. Each
+/// run replaces the previous run in the folder `folder`.
 ///
 /// A model that cannot be fitted becomes a row with the reason.
 ///
@@ -165,7 +165,7 @@ pub fn studies(
     })
 }
 
-/// Progress without the stages of a study, whose steps would replace the steps of the benchmark.
+/// Progress display that hides the stages of a study, so that only the steps of the benchmark are shown.
 struct WholeStudies<'a>(&'a dyn Progress);
 
 impl Progress for WholeStudies<'_> {
@@ -174,7 +174,7 @@ impl Progress for WholeStudies<'_> {
     }
 }
 
-/// One repetition of a study.
+/// Times and errors of one repetition of a study.
 struct Repetition {
     press_cpu_s: Option<f64>,
     assess_cpu_s: Option<f64>,
@@ -207,7 +207,7 @@ fn repetition(
     })
 }
 
-/// Row of the repetitions of one study; there is at least one.
+/// Row for the `repetitions` of one study, of which there must be at least one.
 fn trial(variant: StudyVariant, mut repetitions: Vec<Repetition>) -> StudyTrial {
     let mut failures = repetitions.iter_mut();
     let failed = failures.find_map(|one| one.failed.take());
@@ -236,7 +236,7 @@ fn trial(variant: StudyVariant, mut repetitions: Vec<Repetition>) -> StudyTrial 
     }
 }
 
-/// Mean of `values`; `None` if there are none or one is `None`.
+/// Mean of `values`; `None` if there are no values, or if a value is `None`.
 fn mean(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
     let values: Option<Vec<f64>> = values.collect();
     let values = values.filter(|values| !values.is_empty())?;
@@ -251,7 +251,7 @@ fn coverage(repetitions: &[Repetition], channel: &str) -> Option<StudyCoverage> 
     StudyCoverage::of(&errors)
 }
 
-/// Errors of the channels that `report` scores.
+/// Mean absolute errors of the channels and planes that `report` scores.
 fn errors_of(report: &EvaluationReport) -> Vec<StudyChannel> {
     let error = |channel: &str| {
         let score = report.score(METRIC, channel)?;
@@ -278,12 +278,12 @@ fn clusters(report: &EvaluationReport) -> Option<usize> {
     STUDY_CHANNELS.into_iter().filter_map(clusters).max()
 }
 
-/// Logarithmic width of an interval; `None` for an interval that reaches 0.
+/// Logarithmic width of the interval from `low` to `high`; `None` if `low` is 0 or `high` infinite.
 fn width([low, high]: [f64; 2]) -> Option<f64> {
     (low > 0.0 && high.is_finite()).then(|| (high / low).ln())
 }
 
-/// Marks the rows that no other row beats in both time and width.
+/// Marks the rows on the Pareto front: no other row has both less processor time and a lower mean width.
 fn mark(rows: &mut [StudyTrial]) {
     let is_on_front = |own: &StudyTrial| {
         let is_known = own.cpu_s().is_some() && own.mean_width.is_some();

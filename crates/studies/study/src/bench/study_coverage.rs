@@ -1,4 +1,4 @@
-//! Coverage of the intervals of a study that is repeated with several seeds.
+//! Coverage of intervals: the share of repetitions with other seeds whose interval contains the expected error.
 
 use serde::Serialize;
 use taceva_metrics::Interval;
@@ -7,21 +7,20 @@ use taceva_metrics::Interval;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct StudyCoverage {
-    /// Mean error of all repetitions, in the unit of the channel.
+    /// Mean over all repetitions of the mean absolute error, in the unit of the channel.
     pub mean: f64,
     /// Number of intervals that contain the mean error of the other repetitions.
     pub contained: u64,
     /// Number of repetitions with an interval.
     pub intervals: u64,
-    /// 95 % interval of `contained / intervals` by Wilson.
+    /// 95 % interval (Wilson) of the coverage, `contained / intervals`.
     pub ci95: [f64; 2],
 }
 
 impl StudyCoverage {
-    /// Coverage of `errors`, the error and the interval of each repetition; `None` without an interval or with fewer than two repetitions.
+    /// Coverage of `errors`, which has the error and the interval of each repetition. `None` without an interval, or with fewer than two repetitions.
     ///
-    /// The mean of the other repetitions stands for the expected error, because a mean that includes the repetition itself lies closer to its
-    /// interval.
+    /// The mean of the other repetitions stands for the expected error. A mean that includes the repetition itself would lie closer to its interval.
     pub(super) fn of(errors: &[(f64, Option<[f64; 2]>)]) -> Option<StudyCoverage> {
         let others = errors.len().checked_sub(1).filter(|others| *others > 0)?;
         let sum: f64 = errors.iter().map(|(error, _)| error).sum();

@@ -1,4 +1,4 @@
-//! Scenes of a benchmark of studies: one study of a scene with each combination of points, folds and model.
+//! Scenes for a benchmark of studies. Each has one study, with one combination of number of points, number of folds and model.
 
 use std::fmt;
 use std::num::NonZeroU32;
@@ -14,33 +14,33 @@ use crate::error::StudyError;
 use crate::models::check_models;
 use crate::run::RunSetup;
 
-/// Study of the built-in scenes that is benchmarked if the request names none.
+/// Study of the built-in scenes that is benchmarked by default.
 const USUAL: &str = "MagicTac";
 
-/// Combinations of a benchmark of studies.
+/// Values of a benchmark of studies, of which every combination is run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyGrid {
-    /// Name of the study in the scene. `None` takes MagicTac, or the first study of a scene without it.
+    /// Name of the study in the scene. `None` chooses `MagicTac`, or the first study if the scene has no `MagicTac`.
     pub study: Option<String>,
     /// Seed of all random draws; `None` keeps the seed of the scene.
     pub seed: Option<u64>,
-    /// Number of repetitions of each study, with consecutive seeds.
+    /// Number of repetitions of each combination, with consecutive seeds.
     pub seeds: NonZeroU32,
-    /// Numbers of calibration points.
+    /// Numbers of contact points in the calibration.
     pub points: Vec<u32>,
-    /// Numbers of folds; `None` for one test part.
+    /// Numbers of folds of a cross-validation; `None` for a single test part.
     pub folds: Vec<Option<u32>>,
-    /// Names of models. The settings of the scene apply only to the scene's own model, and its split to every model. Other models have default
-    /// settings.
+    /// Names of models. The settings of the scene apply only to the model that the scene names. The split of the scene applies to every model. Other
+    /// models have default settings.
     pub models: Vec<String>,
 }
 
-/// Combination of a benchmark of studies.
+/// One combination of number of points, number of folds and model.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct StudyVariant {
-    /// Number of calibration points.
+    /// Number of contact points in the calibration.
     pub points: u32,
-    /// Number of folds of the points; `None` for one test part.
+    /// Number of folds of a cross-validation; `None` for a single test part.
     pub folds: Option<u32>,
     /// Name of the model.
     pub model: String,
@@ -49,7 +49,7 @@ pub struct StudyVariant {
 /// Planned scene of one combination.
 #[derive(Debug)]
 pub struct StudyEntry {
-    /// The combination.
+    /// Combination of the scene.
     pub variant: StudyVariant,
     /// Scene with one study and the seed of the first repetition.
     pub scene: PlannedScene,
@@ -125,7 +125,7 @@ impl StudyGrid {
 }
 
 impl StudyEntry {
-    /// Scene of repetition number `further`, counted from 0, with a seed of its own.
+    /// Plans the scene for repetition number `further`, counted from 0, with the seed of this repetition.
     pub(super) fn repeated(
         &self,
         further: u32,
@@ -136,7 +136,7 @@ impl StudyEntry {
     }
 }
 
-/// Plans the scene in `text` with `seed` instead of its own, and checks its models.
+/// Plans the scene in `text` with `seed` instead of the scene's own seed, and checks the models of the scene.
 fn planned(
     text: SceneText,
     setup: RunSetup<'_>,
@@ -147,7 +147,7 @@ fn planned(
     Ok(scene)
 }
 
-/// Combination in words: `80 points, 3 folds, ridge`.
+/// Formats the combination, such as `80 points, 3 folds, ridge`.
 impl fmt::Display for StudyVariant {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let points = counted(self.points, "point");
@@ -158,13 +158,12 @@ impl fmt::Display for StudyVariant {
 }
 
 impl StudyVariant {
-    /// Number of points times number of fits, to which the time of a study is roughly proportional.
+    /// Number of points times number of fits. The time of a study is roughly proportional to this product.
     pub(super) fn steps(&self) -> u64 {
         u64::from(self.points) * u64::from(self.folds.unwrap_or(1))
     }
 
-    /// Copy of the valid scene `text` with only the study called `study`. The number of points, the folds and the model of the copy are those of this
-    /// variant.
+    /// Copy of the valid scene `text` that has only the study `study`, with the points, folds and model of this combination.
     fn applied_to(&self, text: &SceneText, study: &str) -> SceneText {
         let mut scene: Table = toml::from_str(&text.text).expect("the scene was parsed before");
         // The benchmark writes no report, and folds leave no single model to keep.
@@ -205,13 +204,13 @@ impl StudyVariant {
     }
 }
 
-/// Table `key` of `table`, created if it is absent.
+/// Table with the key `key` in `table`. Creates it if it is absent.
 fn subtable<'a>(table: &'a mut Table, key: &str) -> Option<&'a mut Table> {
     let empty = || Value::Table(Table::new());
     table.entry(key).or_insert_with(empty).as_table_mut()
 }
 
-/// `error` without its line, because the user did not write this text.
+/// `error` without its line, because the line belongs to a text that the user did not write.
 fn unplaced(error: StudyError) -> StudyError {
     match error {
         StudyError::Acquire(AcquireError::Scene(mut scene)) => {

@@ -1,4 +1,4 @@
-//! Folder of a run: the scene as read, its plans, one recording for each study, and the reports.
+//! Folder of a run: the scene as written, the plans, one recording for each study, and the reports.
 
 mod difference;
 mod state;
@@ -19,7 +19,7 @@ use crate::error::StudyError;
 /// Policy for a run folder that already exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Existing {
-    /// Rejects the folder.
+    /// Rejects an existing folder.
     Refuse,
     /// Resumes the run in the folder if its plans are unchanged.
     Resume,
@@ -93,7 +93,7 @@ impl RunFolder {
         Ok(folder)
     }
 
-    /// Path of the folder.
+    /// Path of the run folder.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -108,7 +108,7 @@ impl RunFolder {
         self.path.join(FIGURES)
     }
 
-    /// File that lists the stages and whether each was reused from the cache.
+    /// File that lists the stages of the run, and states for each if it was reused from the cache.
     pub fn stages(&self) -> PathBuf {
         self.path.join(STAGES)
     }
@@ -125,13 +125,13 @@ impl RunFolder {
         self.reports().join(name)
     }
 
-    /// File of the errors with faults of study `number`, counted from 0, for a scene with `[stress]`.
+    /// File with the errors of the model of study `number`, counted from 0, under faults of pictures. Used for a scene with `[stress]`.
     pub fn stress(&self, number: usize, study: &str) -> PathBuf {
         let name = format!("{}-{}.json", number + 1, slug(study));
         self.path.join(STRESS).join(name)
     }
 
-    /// Checkpoint of a long training of study `number`, counted from 0.
+    /// Checkpoint file of an unfinished training of study `number`, counted from 0.
     pub(crate) fn checkpoint(&self, number: usize, study: &str) -> PathBuf {
         let name = format!("{}-{}.checkpoint", number + 1, slug(study));
         self.path.join(name)
@@ -174,7 +174,7 @@ impl RunFolder {
         is_untouched && fs::remove_dir_all(&self.path).is_ok()
     }
 
-    /// First free path `<parent>/<scene>-<number>`, counted from 1. For `Resume` and `Replace`, the path of the number before the first free number.
+    /// First free path `<parent>/<scene>-<number>`, counted from 1. For `Resume` and `Replace`, the path with the number before it.
     pub fn numbered(parent: &Path, scene: &str, existing: Existing) -> PathBuf {
         let path = |number: u64| parent.join(format!("{}-{number}", slug(scene)));
         let free = (1..).find(|number| !path(*number).exists()).unwrap_or(1);
@@ -185,7 +185,7 @@ impl RunFolder {
     }
 }
 
-/// Converts a name to a valid file name.
+/// Converts a name to a part of a file name that is valid on all systems.
 fn slug(name: &str) -> String {
     let letters = name.chars().map(|letter| {
         if letter.is_alphanumeric() || "-_".contains(letter) {
@@ -202,7 +202,7 @@ fn is_empty(path: &Path) -> io::Result<bool> {
     Ok(fs::read_dir(path)?.next().is_none())
 }
 
-/// Creates the folder of a run under a temporary name and renames it, so that no incomplete folder is visible.
+/// Creates the folder of a run under a temporary name, and renames it, so that no incomplete folder is ever visible at `path`.
 fn make(path: &Path, scene: &str, plans: &str) -> io::Result<()> {
     fs::create_dir_all(parent_of(path))?;
     let staged = Staged::beside(path)?;
@@ -233,7 +233,7 @@ mod tests {
     const SCENE_TEXT: &str = "scene_version = 1\nname = \"My gel, twice\"\n\
                               sensor = { dataset = \"recording\" }\n";
 
-    /// Scene with one sample per recording, written to its own folder, for tests.
+    /// Test scene of a recording without samples in `folder`. The recording is created if it is absent.
     fn scene(folder: &Path, seed: u64) -> PlannedScene {
         let recording = folder.join("recording");
         if !recording.exists() {

@@ -1,4 +1,4 @@
-//! Tests of predicted widths on results whose errors are drawn.
+//! Tests of predicted widths on results with random errors.
 
 use taceva_core::Channel;
 use taceva_core::random::{mix, unit};
@@ -6,7 +6,7 @@ use taceva_metrics::{Evaluator, Rows};
 
 use super::*;
 
-/// Result with an error of each press, drawn about the size of its point. The sizes differ by `spread`.
+/// Result in which every press has a random error. The mean size of the errors differs between points, by up to the share `spread`.
 fn report(points: u64, presses: u64, spread: f64, seed: u64) -> EvaluationReport {
     let mut table = "sample,point_id,Fz,Fz_predicted\n".to_owned();
     let (mut truths, mut predictions, mut names) = (Vec::new(), Vec::new(), Vec::new());
@@ -134,7 +134,7 @@ fn a_width_is_never_reached_by_too_few_points() {
     assert_eq!(found.needed(1e-9, 4.0, 1_000_000), None);
 }
 
-/// Mean logarithm of predicted over reached widths: pilots of `points` points, for studies of `others`.
+/// Mean over 30 seeds of the logarithm of predicted width / reached width. Pilots have `points` contact points, the whole studies `others`.
 fn bias(points: u64, others: u64) -> f64 {
     let ratio = |seed: u64| {
         let pilot = scored(&report(points, 4, 0.8, 2 * seed));

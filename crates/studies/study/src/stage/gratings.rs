@@ -1,4 +1,4 @@
-//! Predicts the spacing of each press on a grating, by a model that was not fitted on this press.
+//! Predicts the spacing of the board in each press on a grating. The model is fitted on other presses.
 
 mod model;
 mod network;
@@ -16,18 +16,18 @@ use taceva_evaluate::EvaluateError;
 use taceva_evaluate::{CachedStage, Key};
 use taceva_evaluate::{Need, usable};
 
-/// Number of folds of the presses on a board. The presses of one fold are classified by a classifier fitted on the other folds.
+/// Number of folds into which the presses on each board are divided. A classifier that is fitted on the other folds classifies the presses of a fold.
 const FOLDS: usize = 3;
 const NM_A_MM: f64 = 1e6;
 
-/// Predicted spacing of each row.
+/// Predicted spacing by row of the dataset.
 type SpacingOfRow = BTreeMap<usize, Nanometre>;
 
 /// Predicted spacing of each press on a grating.
 pub(super) struct PredictedSpacings {
     /// Rows of the dataset for which spacings were requested, ascending.
     pub(super) rows: Vec<usize>,
-    /// Predicted spacing of each row, in whole nm; undefined for a row without a frame.
+    /// Predicted spacing of each of `rows`, in whole nm; no value for a row without a frame.
     pub(super) spacings: Column,
     pub(super) frames_decoded: u64,
 }
@@ -88,7 +88,7 @@ impl PredictedSpacings {
 }
 
 impl PredictedSpacings {
-    /// Predicted spacing of each of `rows`, in mm; undefined for a row without a prediction.
+    /// Predicted spacing of each of `rows`, in mm; no value for a row without a prediction.
     pub(super) fn in_millimetres(&self, rows: &[usize]) -> Column {
         let mut column = Column::default();
         for row in rows {
@@ -100,7 +100,7 @@ impl PredictedSpacings {
     }
 }
 
-/// Presses with a frame and the spacing of their board, grouped by relief.
+/// Rows of presses with a frame, each with the spacing of its board. They are grouped by the kind of grating.
 fn boards(dataset: &Dataset, rows: &[usize]) -> BTreeMap<GratingKind, Vec<(usize, Nanometre)>> {
     let table = dataset.table();
     let need = Need {
@@ -116,7 +116,7 @@ fn boards(dataset: &Dataset, rows: &[usize]) -> BTreeMap<GratingKind, Vec<(usize
     presses
 }
 
-/// Fold of each press. The presses of one board are assigned to folds in turn.
+/// Index of the fold of each press. The presses of one board are assigned to the folds in turn.
 fn folds(presses: &[(usize, Nanometre)]) -> Vec<usize> {
     let mut numbers: BTreeMap<Nanometre, usize> = BTreeMap::new();
     let folds = presses.iter().map(|(_, spacing)| {

@@ -1,4 +1,4 @@
-//! Models of a study and their predictions: one fitted or opened model, or a fitted model for each fold of the contact points.
+//! Models of a study and their predictions: one fitted or opened model, or one model for each fold of a cross-validation.
 
 use std::path::PathBuf;
 
@@ -17,33 +17,33 @@ use super::phase_rows::{PhaseRows, seen};
 use crate::finished::FittedStudy;
 use crate::models::{fit_request, folds, model_file};
 
-/// Fitted or opened models of a study.
+/// Models of a study, fitted or read from a file.
 pub(super) struct Learnt {
-    /// The only model, or one model for each fold; never empty. The first also predicts the rows that are in no fold.
+    /// The single model, or one model for each fold; never empty. The first model also predicts the rows that are in no fold.
     models: Vec<Learned>,
-    /// Folds of the contact points, if the scene asks for them.
+    /// Folds of the cross-validation, if the scene asks for one.
     folds: Option<Folded>,
-    /// Number of frames decoded for the fits; with folds also for the predictions.
+    /// Number of frames that were decoded for the fits. With folds, it includes the frames for the predictions.
     frames_decoded: u64,
 }
 
-/// A model and the division of its fit.
+/// A model, and the split of samples for its fit.
 struct Learned {
     model: Model,
-    /// Division of the fit; `None` for a model that was fitted on another recording.
+    /// Split of samples for the fit; `None` for a model that was fitted on another recording.
     divided: Option<Divided>,
 }
 
-/// Folds of a study.
+/// Folds of a study's cross-validation.
 struct Folded {
-    /// Division that combines the test parts of all folds.
+    /// Split whose test part has the test rows of all folds.
     whole: Divided,
-    /// Features of all rows that the models of the folds read.
+    /// Features of all rows that the models of the folds read, computed once.
     features: Cache,
 }
 
 impl Learnt {
-    /// Fits or opens the models that the plan needs, with `seed` if given; `None` if no metric reads predictions.
+    /// Fits the models that the plan needs, with `seed` if given, or reads one from its file. `None` without a metric that reads predictions.
     pub(super) fn new(
         scene: &PlannedScene,
         study: &PlannedStudy,
@@ -103,12 +103,12 @@ impl Learnt {
             .map(Some)
     }
 
-    /// The only model, or the model that also predicts the rows that are in no fold.
+    /// The single model, or with folds the model that also predicts the rows that are in no fold.
     pub(super) fn model(&self) -> &Model {
         &self.models[0].model
     }
 
-    /// Parts into which the fit divided the calibration rows; with folds, the parts of all folds together. `None` for a model that was fitted on
+    /// Split of the calibration rows for the fit. With folds, its test part has the test rows of all folds. `None` for a model that was fitted on
     /// another recording.
     pub(super) fn division(&self) -> Option<&Divided> {
         match &self.folds {
@@ -117,12 +117,12 @@ impl Learnt {
         }
     }
 
-    /// Number of frames decoded for the fits; with folds also for the predictions.
+    /// Number of frames that were decoded for the fits. With folds, it includes the frames for the predictions.
     pub(super) fn frames_decoded(&self) -> u64 {
         self.frames_decoded
     }
 
-    /// Description of the models.
+    /// Description of the models for the report.
     pub(super) fn behind(&self, dataset: &Dataset) -> Result<Behind, EvaluateError> {
         let models = self.models.iter();
         let mut behind: Vec<Behind> = models
@@ -134,7 +134,7 @@ impl Learnt {
         })
     }
 
-    /// The model of the study with the calibration samples that it has not seen.
+    /// Model of the study, with the calibration samples that were not used to fit it.
     pub(super) fn into_fitted(
         mut self,
         dataset: &Dataset,
@@ -164,7 +164,7 @@ impl Learnt {
         }
     }
 
-    /// Predictions of all rows that a metric reads, each by a model that has not seen it, and their rows, ascending.
+    /// Predictions for all rows that a metric reads, with these rows in ascending order. Each row is predicted by a model that was not fitted on it.
     pub(super) fn predict(
         &self,
         study: &PlannedStudy,
@@ -215,7 +215,7 @@ impl Learnt {
         Ok((predicted, rows))
     }
 
-    /// Predictions of `rows` by `model`, and the usable rows; `None` without a usable row.
+    /// Predictions by `model` for those of `rows` that are usable, with the usable rows. `None` if no row is usable.
     fn predict_rows(
         &self,
         model: &Model,
@@ -253,7 +253,7 @@ impl Learnt {
 }
 
 impl Folded {
-    /// `work` with the shared features of the folds.
+    /// Copy of `work` whose cache has the features that the folds share.
     fn work<'a>(&'a self, work: Work<'a>) -> Work<'a> {
         Work {
             cache: Some(&self.features),
@@ -267,12 +267,12 @@ struct Fitting<'a> {
     dataset: &'a Dataset,
     request: &'a FitRequest,
     context: RunContext<'a>,
-    /// True if unfinished trainings are stored.
+    /// True if checkpoints of unfinished trainings are stored.
     has_checkpoints: bool,
 }
 
 impl Fitting<'_> {
-    /// Fits one model by `divided`.
+    /// Fits one model with the split `divided`.
     fn on(&self, divided: Divided) -> Result<Learnt, EvaluateError> {
         let checkpoint = self.context.checkpoint.to_owned();
         let (learned, plan) = self.fit(divided, checkpoint, self.context.work)?;
@@ -283,7 +283,7 @@ impl Fitting<'_> {
         })
     }
 
-    /// Fits a model for each fold. Features of `rows` and of the folds are computed once.
+    /// Fits one model for each fold. The features of `rows` and of all folds are computed once.
     fn on_folds(&self, folded: FoldedRows, rows: Vec<usize>) -> Result<Learnt, EvaluateError> {
         let mut rows = [rows, folded.whole.split.test.clone()].concat();
         rows.sort_unstable();
@@ -345,15 +345,15 @@ impl Fitting<'_> {
     }
 }
 
-/// Frames that a fit decodes.
+/// Number of frames that a fit decodes.
 struct Decoded {
-    /// Number of frames.
+    /// Number of different frames.
     frames: u64,
-    /// Number of kinds of features, each of which decodes every frame; 0 for a model that reads no frames.
+    /// Number of times that each frame is decoded, once for each kind of features; 0 for a model that reads no frames.
     passes: u64,
 }
 
-/// Rows of all phases with needed predictions, and of repeated presses on further units, ascending.
+/// Rows to predict, ascending: the rows of all phases with needed predictions, and the rows of presses that are repeated on other units.
 fn predicted_rows(phase_rows: &PhaseRows<'_>) -> Vec<usize> {
     let phases = phase_rows.predicted_phases();
     let mut rows: Vec<usize> = phases

@@ -13,19 +13,19 @@ use taceva_evaluate::FitRequest;
 use taceva_evaluate::Note;
 use taceva_evaluate::{DataPart, Divided};
 
-/// Rows of a recording by the protocol phase of their press.
+/// Rows of a recording, grouped by the phase of the protocol for which their press was made.
 pub(super) struct PhaseRows<'a> {
     plan: &'a Plan,
     dataset: &'a Dataset,
-    /// Rows of each phase; `None` if the plan has no presses, and every row then belongs to every phase.
+    /// Rows of each phase. `None` if the plan has no presses: every row then belongs to every phase.
     rows: Option<BTreeMap<PhaseKind, Vec<usize>>>,
-    /// Rows of repeated presses on further units, ascending. They belong to no phase: no metric of one unit reads them.
+    /// Rows of presses that are repeated on other units than the first, ascending. They belong to no phase, because no metric of one unit reads them.
     of_other_units: Vec<usize>,
 }
 
-/// Word of the protocol for rows of repeated presses on further units.
+/// Name in the report for rows of presses that are repeated on other units.
 const OTHER_UNITS: &str = "other-units";
-/// Channels of the place and depth of the ball, from which contact shapes follow.
+/// Channels of the place and depth of the ball, from which contact shapes are computed.
 const OF_SHAPES: [&str; 3] = ["Px", "Py", "Pz"];
 
 impl<'a> PhaseRows<'a> {
@@ -58,7 +58,7 @@ impl<'a> PhaseRows<'a> {
         Some(phases.chain(others).collect())
     }
 
-    /// `phase` by the name of each of `metrics`; empty for a recording without a plan.
+    /// Name of `phase` for the name of each of `metrics`; empty for a recording without a plan.
     pub(super) fn named(
         &self,
         phase: PhaseKind,
@@ -70,23 +70,23 @@ impl<'a> PhaseRows<'a> {
             .collect()
     }
 
-    /// Rows of repeated presses on further units, ascending.
+    /// Rows of presses that are repeated on other units than the first, ascending.
     pub(super) fn of_other_units(&self) -> &[usize] {
         &self.of_other_units
     }
 
-    /// The planned metrics with their entries in the catalogue.
+    /// Planned metrics, each with its entry in the catalogue of metrics.
     pub(super) fn metrics(&self) -> impl Iterator<Item = (&'a PlannedMetric, &'static Metric)> {
         let planned = self.plan.metrics.iter();
         planned.filter_map(|metric| Some((metric, catalogue::find(&metric.id)?)))
     }
 
-    /// True if contact shapes are planned. Their depth maps follow from the predicted places and depths.
+    /// True if contact shapes are planned. Their depth maps are computed from the predicted places and depths.
     fn has_shapes(&self) -> bool {
         self.plan.phases.contains(&PhaseKind::Shape)
     }
 
-    /// Reason why the plan skips the phase `kind`; `None` if it does not.
+    /// Reason why the plan skips the phase `kind`; `None` if the phase is not skipped.
     pub(super) fn skipped(&self, kind: PhaseKind) -> Option<String> {
         let is_own = |skip: &&PlanSkip| skip.subject == Subject::Phase(kind);
         let is_planned = self.plan.phases.contains(&kind);
@@ -106,8 +106,8 @@ impl<'a> PhaseRows<'a> {
         metrics.any(|(_, metric)| metric.needs.fields.contains(Field::PredictedSpacing))
     }
 
-    /// Phases of the protocol with needed predictions: the phases of metrics and of contact shapes, and the calibration, which gives the skill of the model.
-    /// Loading and unloading are among them if their presses have frames.
+    /// Phases of the protocol whose predictions are needed. These are the phases of metrics that read predictions, contact shapes, and the
+    /// calibration, which gives the skill of the model. Loading and unloading belong to them if their presses have frames.
     pub(super) fn predicted_phases(&self) -> BTreeSet<PhaseKind> {
         let metrics = self.metrics();
         let predicted = metrics.filter(|(_, metric)| metric.reads_predictions());
@@ -123,7 +123,7 @@ impl<'a> PhaseRows<'a> {
         phases
     }
 
-    /// Channels to predict, in the order of the plan: the channels of samples with a frame.
+    /// Channels to predict, in the order of the plan. A metric or a contact shape reads them, and at least one sample with a frame has them.
     pub(super) fn predicted_channels(&self) -> Vec<String> {
         let table = self.dataset.table();
         let is_seen = |channel: &str| {
@@ -155,7 +155,7 @@ impl<'a> PhaseRows<'a> {
             .collect()
     }
 
-    /// Divides the calibration presses for the fit, and keeps each contact point in one part. All other presses are in no part.
+    /// Splits the calibration presses into the parts of a fit. Each contact point stays in one part. All other presses are in no part.
     pub(super) fn divided(&self, request: &FitRequest) -> Result<Divided, EvaluateError> {
         let dataset = self.dataset;
         if self.rows.is_none() {
@@ -166,8 +166,8 @@ impl<'a> PhaseRows<'a> {
         Divided::within(dataset, &rows, Some(split), request.seed)
     }
 
-    /// The only unit measured outside the surface map, with a note for metrics that compare units. `None` if the study has no other unit, no metric
-    /// compares units, or several units were measured.
+    /// Name of the unit, if only one was measured outside the surface map, with a note for the metrics that compare units. `None` if the study has no
+    /// other unit, no metric compares units, or several units were measured.
     pub(super) fn measured_unit(&self) -> Option<(String, Note)> {
         let units = self.dataset.table().as_text(Field::UnitId.name())?;
         let mut of: Vec<String> = units.iter().flatten().cloned().collect();
@@ -198,7 +198,7 @@ impl<'a> PhaseRows<'a> {
         })
     }
 
-    /// Note on presses that ended early, if any.
+    /// Note on the number of samples that are missing, because presses ended early; `None` if none is missing.
     pub(super) fn shortfall(&self) -> Option<Note> {
         self.rows.as_ref()?;
         let presses = self.plan.presses.iter();
@@ -211,7 +211,7 @@ impl<'a> PhaseRows<'a> {
     }
 }
 
-/// Rows used to fit a model or choose its settings, ascending.
+/// Rows of the training and validation parts, which fit a model or choose its settings, ascending.
 pub(super) fn seen(divided: &Divided) -> Vec<usize> {
     let parts = [DataPart::Train, DataPart::Validation].map(|part| divided.rows(part));
     let mut rows = parts.concat();
@@ -219,7 +219,7 @@ pub(super) fn seen(divided: &Divided) -> Vec<usize> {
     rows
 }
 
-/// Rows of each phase of the protocol, without the rows of repeated presses on further units, which are added to `others`. Samples are named
+/// Rows of each phase of the protocol. Rows of presses that are repeated on other units are added to `others` instead. Samples are named
 /// `<press>/<number>`.
 fn by_phase(
     plan: &Plan,

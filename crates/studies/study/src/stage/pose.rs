@@ -1,4 +1,4 @@
-//! Scores of changes of pose on pairs of presses of a board: its shift along the gel, and its turn about its axis.
+//! Scores of changes of pose on pairs of presses of a board: the shift of the board along the gel, and the turn about its axis.
 
 use std::collections::BTreeMap;
 
@@ -13,10 +13,10 @@ use super::task::TaskOutcome;
 use crate::error::StudyError;
 use crate::models::fit_request;
 
-/// Name of the task.
+/// Name of the task in the report.
 const POSE: &str = "pose";
 
-/// Scores of changes of pose, or the reason why there are none. `None` if the scene asks for none or fits no model, or the recording has no plan.
+/// Scores of changes of pose, or the reason why there are none. `None` if the scene asks for none or fits no model, or if there is no plan.
 pub(super) fn of(
     scene: &PlannedScene,
     study: &PlannedStudy,
@@ -46,7 +46,7 @@ pub(super) fn of(
     TaskOutcome::of(POSE, scores).map(Some)
 }
 
-/// `request` with the first of the seeds of the scene, if the scene states seeds.
+/// Request `request` with the first seed that the user gives for trainings, if there is one.
 fn with_first_seed(scene: &PlannedScene, request: FitRequest) -> Result<FitRequest, EvaluateError> {
     match scene.seeds.first() {
         Some(seed) => request.with_seed(*seed),
@@ -54,16 +54,16 @@ fn with_first_seed(scene: &PlannedScene, request: FitRequest) -> Result<FitReque
     }
 }
 
-/// Poses of the boards of a recording.
+/// Poses of the boards in the presses of a recording.
 struct Boards {
-    /// Pose of each row of the dataset; none for other presses and without a measured place.
+    /// Pose for each row of the dataset; `None` for rows of other presses, or without a measured place.
     labels: Vec<Option<TaskLabel>>,
-    /// Rows of complete pairs.
+    /// Pairs of rows, of which both presses were recorded.
     pairs: Vec<PosePair>,
 }
 
 impl Boards {
-    /// Poses in `rows`, whose samples are named `<press>/<number>`.
+    /// Collects the poses of the boards in `rows`, whose samples are named `<press>/<number>`.
     fn of(study: &PlannedStudy, dataset: &Dataset, rows: &[usize]) -> Boards {
         let planned = study.plan.presses_of(PhaseKind::Pose);
         let presses: BTreeMap<String, &Press> = planned

@@ -1,4 +1,4 @@
-//! Scores of each metric on its planned presses and channels.
+//! Scores of each metric, computed on the presses and channels that are planned for it.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
@@ -18,40 +18,40 @@ use taceva_evaluate::{Bounded, EvaluateError, StateFile};
 use taceva_evaluate::{Columns, OF_SENSOR, Rows, accumulate};
 use taceva_evaluate::{Predicted, provenance_of, subject_of, truth};
 
-/// Inputs of the scores.
+/// Inputs from which the scores of a study are computed.
 pub(super) struct Scores<'a> {
     pub(super) scene: &'a PlannedScene,
     pub(super) study: &'a PlannedStudy,
     pub(super) dataset: &'a Dataset,
     pub(super) phase_rows: &'a PhaseRows<'a>,
-    /// Predictions, and the dataset row of each prediction, ascending; `None` if no metric reads predictions.
+    /// Predictions, with the row of the dataset for each prediction, ascending; `None` if no metric reads predictions.
     pub(super) predicted: Option<&'a (Predicted, Vec<usize>)>,
-    /// Predicted spacings of presses on gratings; `None` if no metric reads them.
+    /// Predicted spacings of presses on gratings; `None` if no metric reads spacings.
     pub(super) predicted_spacings: Option<&'a PredictedSpacings>,
     pub(super) jobs: NonZeroUsize,
 }
 
-/// Metrics computed on the same rows and channels.
+/// Rows and channels on which some metrics are computed together.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct ScoreGroup {
     phase: PhaseKind,
     channels: Vec<String>,
     predictions: Option<Within>,
-    /// True if times are read only from the rows of the phase, and all other values from every row.
+    /// True if the metrics read all rows of the recording, but times only from the rows of the phase.
     of_sensor: bool,
 }
 
-/// Range to which predictions are clipped before a metric reads them.
+/// Range to which predictions are limited before a metric reads them.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Within {
-    /// Predictions clipped to the bounds of the model.
+    /// Predictions limited to the bounds that the model states.
     Bounds,
-    /// Unclipped predictions.
+    /// Predictions without a limit.
     Nothing,
 }
 
 impl Within {
-    /// Range for the predictions that `metric` reads; `None` if it reads no predictions.
+    /// Range for the predictions that `metric` reads; `None` if the metric reads no predictions.
     fn of(metric: &Metric) -> Option<Within> {
         metric.reads_predictions().then(|| {
             if metric.reads_unbounded_predictions() {
@@ -66,15 +66,15 @@ impl Within {
 /// Scores of a study, with the sums from which they were computed.
 pub(super) struct StudyScores {
     pub(super) evaluation: Evaluation,
-    /// Notes on omissions that cannot be expressed as a skip.
+    /// Notes on metrics that are left out for a reason that is not a skip.
     pub(super) notes: Vec<Note>,
-    /// State of each group of rows.
+    /// State of each group of rows: the sums behind its scores.
     pub(super) states: Vec<StateFile>,
-    /// Phase of each metric; empty for a recording without a plan.
+    /// Name of the phase on whose presses each metric is computed, by the name of the metric; empty for a recording without a plan.
     pub(super) phases: BTreeMap<String, String>,
 }
 
-/// Scores of all groups of rows.
+/// Computes the scores of all groups of rows.
 pub(super) fn score(scores: &Scores<'_>) -> Result<StudyScores, EvaluateError> {
     let mut groups: BTreeMap<ScoreGroup, Vec<&'static Metric>> = BTreeMap::new();
     for (planned, metric) in scores.phase_rows.metrics() {
@@ -110,11 +110,11 @@ pub(super) fn score(scores: &Scores<'_>) -> Result<StudyScores, EvaluateError> {
     })
 }
 
-/// Scores of one group of rows, and its state.
+/// Scores of one group of rows, with the state from which they were computed.
 struct GroupScores {
     evaluation: Evaluation,
     state: StateFile,
-    /// Phase of each metric.
+    /// Name of the phase on whose presses each metric is computed, by the name of the metric.
     phases: BTreeMap<String, String>,
 }
 
@@ -178,8 +178,8 @@ impl Scores<'_> {
         })
     }
 
-    /// Group of rows that determines the skill of the model; `None` without predictions. These are the unseen presses of the calibration, or without
-    /// these the phase with the most predictions.
+    /// Group of rows that determines the skill of the model; `None` without predictions. These are the calibration presses that the model has not
+    /// seen. If there are none, the phase with the most predictions is used.
     fn skill_group(&self) -> Option<ScoreGroup> {
         let (_, predicted) = self.predicted?;
         let count = |phase: PhaseKind| {
@@ -202,7 +202,7 @@ impl Scores<'_> {
         })
     }
 
-    /// Constant prediction of each channel, for the skill. Contains only channels for which the model states a constant.
+    /// Constant prediction of each channel, with which the skill metric compares the model. A channel without a stated constant is absent.
     fn constants(&self) -> BTreeMap<String, f64> {
         let predicted = self.predicted.map(|(predicted, _)| predicted);
         predicted.map_or_else(BTreeMap::new, |predicted| predicted.constants().clone())
@@ -216,7 +216,7 @@ impl Scores<'_> {
         Channels::new(chosen).map_err(|error| EvaluateError::Request(error.to_string()))
     }
 
-    /// Rows of `group` and their predictions. Skips rows without a prediction if a metric reads predictions.
+    /// Rows of `group`, with their predictions. If the metrics read predictions, rows without a prediction are left out.
     fn rows(&self, group: &ScoreGroup, channels: &Channels) -> Taken {
         let rows = match group.of_sensor {
             true => self.dataset.all_rows(),
@@ -255,19 +255,19 @@ impl Scores<'_> {
     }
 }
 
-/// Rows that metrics read.
+/// Rows that the metrics of one group read, with their predictions.
 struct Taken {
     rows: Vec<usize>,
     /// Predictions of the rows, one column per channel.
     prediction: Vec<Column>,
-    /// Number of predictions of each channel outside the bounds of the model.
+    /// Number of predictions of each channel that exceed the bounds of the model.
     bounded: Bounded,
 }
 
-/// Rows with their predicted spacings, if any.
+/// Rows of one group, with their predicted spacings if metrics read spacings.
 struct Samples<'a> {
     columns: Columns<'a>,
-    /// Rows whose times are used, ascending; `None` for all rows.
+    /// Rows whose times a metric reads, ascending; `None` if it reads the times of all rows.
     timed: Option<Vec<usize>>,
     spacings: Option<&'a Column>,
 }
@@ -294,7 +294,7 @@ impl Rows for Samples<'_> {
     }
 }
 
-/// Requested metrics that the plan skips. A [`SkipReason`] gives a skip in the report; any other reason gives a note.
+/// Requested metrics that the plan skips. A metric skipped for a [`SkipReason`] becomes a skip of the report. Any other reason becomes a note.
 fn left_out(study: &PlannedStudy) -> (Vec<Skipped>, Vec<Note>) {
     let (mut skipped, mut notes) = (Vec::new(), Vec::new());
     for skip in &study.plan.skipped {

@@ -1,4 +1,4 @@
-//! Scores of contact shapes on the presses of the ball: the depth map of the predicted place and depth, compared with the true depth map.
+//! Scores of contact shapes on the presses of the ball. The depth map of the predicted place and depth is compared with the true depth map.
 
 use taceva_acquire::{PlannedScene, PlannedStudy};
 use taceva_dataset::Dataset;
@@ -9,10 +9,10 @@ use super::phase_rows::PhaseRows;
 use super::task::TaskOutcome;
 use crate::error::StudyError;
 
-/// Name of the task.
+/// Name of the task in the report.
 const SHAPE: &str = "shape";
 
-/// Scores of contact shapes, or the reason why there are none. `None` if the scene asks for none, or without a plan, predictions or footprint.
+/// Scores of contact shapes, or the reason why there are none. `None` if the scene asks for none, or without plan, predictions or footprint.
 pub(super) fn of(
     scene: &PlannedScene,
     study: &PlannedStudy,

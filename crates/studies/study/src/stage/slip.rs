@@ -1,4 +1,4 @@
-//! Scores of slip on the strokes of a study.
+//! Scores of slip detection on the strokes of a study.
 
 use taceva_acquire::PlannedScene;
 use taceva_dataset::{Dataset, Task, TaskKind, TaskLabel};
@@ -11,16 +11,16 @@ use super::phase_rows::PhaseRows;
 use super::task::TaskOutcome;
 use crate::error::StudyError;
 
-/// Name of the task.
+/// Name of the task in the report.
 const SLIP: &str = "slip";
-/// Share of the limit of friction from which a frame is labelled slip. The outermost part of a contact slides earlier.
+/// Least share of the limit of friction at which a frame is labelled slip. The outermost part of a contact slides earlier.
 const SHARE: f64 = 0.9;
-/// Model that predicts slip from few strokes: linear discriminants of small pictures.
+/// Name of the model that predicts slip from few strokes: linear discriminant analysis of small pictures.
 const MODEL: &str = "lda";
-/// Grid of the pictures.
+/// Setting of the model: the size of the small pictures, in cells along each side.
 const GRID: &str = "size=8x8";
 
-/// Scores of slip, or the reason why there are none. `None` if the study has no stroke.
+/// Scores of slip, or the reason why there are none. `None` if the study has no stroke, or the recording no plan.
 pub(super) fn of(
     scene: &PlannedScene,
     dataset: &Dataset,
@@ -65,7 +65,7 @@ pub(super) fn of(
     TaskOutcome::of(SLIP, scores).map(Some)
 }
 
-/// Class of each row of the dataset: 1 for slip; none outside `rows` and without contact. `None` if a force is not measured.
+/// Class of each row of the dataset: 1 for slip, otherwise 0; `None` outside `rows` or without contact. No labels without Fx, Fy and Fz.
 fn labels(dataset: &Dataset, rows: &[usize], friction: f64) -> Option<Vec<Option<TaskLabel>>> {
     let table = dataset.table();
     let [x, y, z] = ["Fx", "Fy", "Fz"].map(|name| table.channels().position(name));

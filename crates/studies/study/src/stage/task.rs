@@ -14,7 +14,7 @@ pub(super) enum TaskOutcome {
 }
 
 impl TaskOutcome {
-    /// Outcome of the task called `name`. A request or a fit that the samples do not allow is a skip.
+    /// Outcome of the task with the name `name`. If the samples do not allow a request or a fit, the task is skipped.
     pub(super) fn of<T: Serialize>(
         name: &str,
         scores: Result<T, EvaluateError>,
@@ -42,7 +42,7 @@ impl TaskOutcome {
         })
     }
 
-    /// Adds the outcome to `report`.
+    /// Adds the scores of the task, or the reason for skipping it, to `report`.
     pub(super) fn add_to(self, report: &mut EvaluationReport) {
         match self {
             TaskOutcome::Scored(scores) => report.tasks.push(scores),

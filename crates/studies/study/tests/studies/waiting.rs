@@ -1,4 +1,4 @@
-//! Studies on devices that run in real time.
+//! Tests of studies on emulated devices that run in real time.
 
 mod air;
 mod camera;
@@ -39,12 +39,12 @@ contact = { clearance_mm = 0.3, search_mm = 0.5, speed_mm_s = 5.0, travel_mm_s =
 calibration = { points = 3, indentations = 2, shear_mm = 0.0 }
 "#;
 
-/// Records the scene on `world` in `folder`.
+/// Records [`SCENE`] on the emulated rig `world`, into `folder`.
 fn record(world: &World, folder: &Path, progress: &dyn Progress) -> Result<Dataset, StudyError> {
     record_by_hand(world, folder, progress, (SCENE, None))
 }
 
-/// Records a scene that may need an operator, with an optional operator.
+/// Records `scene` on `world`. An `operator` may do the manual steps.
 fn record_by_hand(
     world: &World,
     folder: &Path,
@@ -54,7 +54,7 @@ fn record_by_hand(
     record_on(world, folder, progress, (scene, None, operator))
 }
 
-/// Records the scene on the rig of an optional rig file.
+/// Records a scene on `world`. `on` has the text of the scene, the path of a rig file if any, and the operator if any.
 fn record_on(
     world: &World,
     folder: &Path,
@@ -78,7 +78,7 @@ fn record_on(
     })
 }
 
-/// Result of calling `act` with a scene that is planned on `world`.
+/// Plans `scene` on `world`, calls `act` with the plan and the devices, and returns its result.
 fn with_workshop<T>(
     world: &World,
     progress: &dyn Progress,

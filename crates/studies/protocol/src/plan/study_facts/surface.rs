@@ -9,7 +9,7 @@ use crate::source::RigInfo;
 use crate::text::{SceneError, SceneProblem};
 
 impl Gather<'_> {
-    /// Footprint of the scene, otherwise of the rig file, otherwise of the sensor. Each must be within the next.
+    /// Footprint that the scene states, otherwise the rig file, otherwise the sensor. Each must be within those of the later sources.
     pub(super) fn footprint(
         &self,
         stated: Option<Footprint>,
@@ -113,7 +113,7 @@ impl Gather<'_> {
     }
 }
 
-/// Footprint `written`, which must be within `outer`, stated by `owner`.
+/// Builds the footprint `written`. Rejects a footprint that exceeds `outer`, the footprint of `owner`.
 fn within(
     written: &FootprintSpec,
     outer: Option<Footprint>,

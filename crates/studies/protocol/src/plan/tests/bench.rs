@@ -54,7 +54,7 @@ pub(crate) fn rig_of(sensor: SensorFacts, axes: Axes) -> RigInfo {
     }
 }
 
-/// Metrics of the paper in the planner's form.
+/// Needs of the metrics in the TacEva paper.
 pub(crate) fn paper_metrics() -> Vec<MetricNeeds> {
     let truth = FieldSet::EMPTY.with(Field::Truth);
     let cells = FieldSet::EMPTY.with(Field::Prediction).with(Field::Point);

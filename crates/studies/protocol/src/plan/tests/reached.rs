@@ -19,7 +19,7 @@ fn with_sensor(sensor: SensorFacts) -> Plan {
     planned(SMALL, rig_of(sensor, Axes::FORCE))
 }
 
-/// Plan of only the metrics `kept`.
+/// Plan of a scene with only the metrics `kept`.
 fn of(kept: &[&str]) -> Plan {
     planned_as(SMALL, SourceInfo::Rig(Box::new(whole())), &only(kept))
 }

@@ -1,10 +1,10 @@
-//! Presses for contact shapes and for changes of pose, which a scene asks for.
+//! Tests of presses for contact shapes and for changes of pose.
 
 use taceva_core::{GratingKind, Nanometre, Specimen};
 
 use super::*;
 
-/// The small scene with six presses of the ball and four pairs of presses of a board.
+/// Scene `text` with six presses of the ball for shapes and four pairs of presses of a board for changes of pose.
 pub(super) fn with_both(text: &str) -> String {
     let both = "[protocol]\nshape = { presses = 6, depths = 2 }\npose = { pairs = 4, shift_mm = 0.5, turn_degrees = 12 }";
     let changed = text.replace("[protocol]", both);

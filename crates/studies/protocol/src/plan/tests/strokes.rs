@@ -1,9 +1,9 @@
-//! Strokes for the detection of slip, which a scene asks for.
+//! Tests of strokes for the detection of slip.
 
 use super::*;
 use crate::press::Waypoint;
 
-/// The small scene with ten strokes of 0.4 mm in steps of 0.1 mm.
+/// Plan of a small scene with ten strokes of 0.4 mm in steps of 0.1 mm.
 fn with_strokes() -> Plan {
     let text = SMALL.replace(
         "[protocol]",

@@ -1,4 +1,4 @@
-//! Detects a camera that repeats a sequence of old frames, as from a ring buffer that is no longer filled.
+//! Detects a camera that repeats a sequence of old frames, such as a camera whose ring buffer is no longer filled.
 
 use std::collections::VecDeque;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -7,10 +7,10 @@ use taceva_core::Frame;
 
 use super::moment::Moment;
 
-/// Number of frames that are compared. It is at least the number of buffers of a camera.
+/// Number of earlier frames with which a frame is compared. It is at least the number of buffers of a camera.
 const COMPARED: usize = 16;
 
-/// Digests of the last distinct frames.
+/// Digests of the last distinct frames, and the number of repeats of them.
 #[derive(Default)]
 pub(super) struct Cycle {
     frames: VecDeque<Old>,
@@ -24,8 +24,8 @@ struct Old {
 }
 
 impl Cycle {
-    /// Number of returns to older frames since the last new frame, including a return by `frame`, captured at `moment`. A return counts if tip and
-    /// force changed since the older frame.
+    /// Number of repeated older frames since the last new frame, including `frame`, captured at `moment`. A repeat counts only if the tip moved and
+    /// the force changed since the older frame.
     pub(super) fn returns(&mut self, frame: &Frame, moment: Moment) -> u32 {
         let mut hasher = DefaultHasher::new();
         frame.bytes().hash(&mut hasher);

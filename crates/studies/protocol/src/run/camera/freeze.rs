@@ -5,22 +5,23 @@ use taceva_core::Frame;
 use super::cycle::Cycle;
 use super::moment::Moment;
 
-/// Number of changed frames after which a camera counts as live. An equal frame before that means that the camera is too coarse to be checked.
+/// Number of changed frames after which a camera counts as live. If an equal frame comes earlier, the camera is too coarse for this check.
 const LIVE_FRAMES: u32 = 8;
-/// Number of changed frames of the untouched gel after which a camera counts as noisy. No two frames of a noisy camera are equal.
+/// Number of changed frames of the untouched gel after which a camera counts as noisy. A working noisy camera never takes two equal frames.
 const NOISY_FRAMES: u32 = 4;
-/// Number of repeats of one frame after which a camera with fewer than [`LIVE_FRAMES`] changed frames counts as frozen. An earlier force change of
-/// similar size must have changed a frame.
+/// Number of repeats of one frame after which a coarse camera counts as frozen. The camera is coarse if it showed fewer than [`LIVE_FRAMES`] changes.
+/// In addition, an earlier force change of similar size must have changed a frame.
 const STUCK_REPEATS: u32 = 3;
-/// Part of the greatest force change that changed a frame. A force change of at least this part must change the frame too, because forces of presses
-/// to one depth vary.
+/// Least force change that must change a frame, as a share of the greatest force change that did. The share is below 1 because forces of presses to
+/// one depth vary.
 const SHOWN_PART: f64 = 0.75;
-/// Numbers of repeated older frames after which a noisy camera, and any other camera, counts as frozen.
+/// Number of repeated older frames after which a noisy camera counts as frozen.
 const NOISY_RETURNS: u32 = 3;
+/// Number of repeated older frames after which any other camera counts as frozen.
 const CYCLE_RETURNS: u32 = 6;
-/// Distance of a pixel value from black or full scale up to which it counts as clipped.
+/// Largest difference from black or full scale, in steps of a pixel value, up to which a value counts as clipped.
 const CLIPPED: u16 = 4;
-/// Greatest fraction of unclipped samples in a blank frame, such as hot pixels.
+/// Greatest share of unclipped values in a blank frame. Hot pixels of a dark frame are such values.
 const SEEN_PART: f64 = 0.01;
 
 /// Last distinct frame of a run, and the evidence that this camera does not repeat frames.
@@ -29,22 +30,22 @@ pub(super) struct Freeze {
     last: Option<Distinct>,
     changes: u32,
     changes_in_air: u32,
-    /// Greatest change of the force that changed the frame, in N.
+    /// Greatest force change that changed a frame, in N.
     shown_n: f64,
     cycle: Cycle,
     is_coarse: bool,
     is_noiseless: bool,
 }
 
-/// Frame that differs from the previous frame.
+/// Last frame that differs from the frame before it.
 struct Distinct {
     frame: Frame,
     moment: Moment,
     /// True if the tip has left the gel since the frame was captured.
     is_left: bool,
-    /// Number of equal frames that should have differed.
+    /// Number of later frames that are equal to this frame, although tip or force changed.
     repeats: u32,
-    /// True if the frame repeats between air and contact, or between two presses, although an earlier similar force change changed the frame.
+    /// True if an equal frame followed in another press, or across the contact, although a similar force change once changed a frame.
     is_seen_across: bool,
 }
 
@@ -150,7 +151,7 @@ mod tests {
         Frame::new(info, pixels.to_vec()).expect("its size")
     }
 
-    /// A camera after nine frames of the untouched gel that differ, or repeat.
+    /// A camera after nine frames of the untouched gel. The frames differ if `differ` is true, else they are equal.
     fn after_nine(differ: bool) -> Freeze {
         let mut freeze = Freeze::default();
         for number in 0..9 {

@@ -6,9 +6,9 @@ use crate::run::load_limit::Felt;
 use crate::run::tip::Tip;
 use crate::run::way::distance;
 
-/// Least change of the force that changes the frame of any camera, in multiples of the least force that counts as contact in the air.
+/// Least change of the force that changes the frame of any camera, in multiples of `air_n`.
 const FORCE_STEPS: f64 = 5.0;
-/// Least displacement of the tip that changes the frame of a camera without noise, in mm. A gel at rest may creep under the tip unseen.
+/// Least displacement of the tip that changes the frame of a camera without noise, in mm. A gel may creep by less under a resting tip.
 const MOVED_MM: f64 = 0.05;
 
 /// State of the tip when a frame is captured.
@@ -16,9 +16,9 @@ const MOVED_MM: f64 = 0.05;
 pub(super) struct Moment {
     pub(super) felt: Felt,
     pub(super) pose: Pose,
-    /// True from a retreat to the next search. A light touch does not count as being in the air, whatever its force.
+    /// True from the end of a retreat until the next search begins. A light touch in a search does not count as being in the air.
     pub(super) is_in_air: bool,
-    /// Least force that counts as contact in the air, in N.
+    /// Force that counts as contact during a motion through the air, in N.
     pub(super) air_n: f64,
 }
 
@@ -33,7 +33,7 @@ impl Moment {
         }
     }
 
-    /// Change of the force since `earlier`, in N.
+    /// Magnitude of the change in normal and shear force since `earlier`, in N.
     pub(super) fn change_n(&self, earlier: &Moment) -> f64 {
         let normal_n = self.felt.normal_n - earlier.felt.normal_n;
         let shear_n = self.felt.shear_n - earlier.felt.shear_n;
@@ -57,7 +57,7 @@ impl Moment {
     }
 }
 
-/// Tip on a gel of 2 N/mm, under this force.
+/// State of a tip that presses a gel of 2 N/mm with `normal_n`.
 #[cfg(test)]
 pub(super) fn pressed(normal_n: f64) -> Moment {
     let mut pose = Pose::default();

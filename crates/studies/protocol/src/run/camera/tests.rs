@@ -5,7 +5,7 @@ use taceva_core::{DriverError, FrameInfo, PixelFormat};
 use super::*;
 use crate::run::rig::{Rig, nothing, with_tip};
 
-/// Returns frames with these capture times; repeats the last one.
+/// Test camera. Returns frames with the given capture times, in s, and repeats the last one.
 pub(in crate::run) struct Album(pub(in crate::run) Vec<f64>);
 
 impl Sensor for Album {
@@ -28,7 +28,7 @@ impl Sensor for Album {
     }
 }
 
-/// Like an album, but frames arrive 10 ms after capture and wait until they are read.
+/// Test camera like `Album`, but frames arrive 10 ms after capture and wait until they are read.
 struct Stream(Album);
 
 impl Sensor for Stream {
@@ -44,7 +44,7 @@ impl Sensor for Stream {
     }
 }
 
-/// Captures a frame at 5 s of a tip at rest since 4.5 s. Returns the number of retries and the capture time.
+/// Captures a frame of a tip that rests since 4.5 s, from a camera with the capture `times`. Returns the number of retries and the capture time.
 fn taken(times: &[f64]) -> (u32, Result<f64, StopCause>) {
     taken_by(&mut Album(times.to_vec()))
 }

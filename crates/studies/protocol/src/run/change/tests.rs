@@ -8,7 +8,7 @@ use crate::run::rig::{CONTACT_MM, Rig, plan};
 use crate::run::time::Cancel;
 use crate::run::{Controls, Devices, Mode, RunSpec, SpecimenChanger};
 
-/// Test changer that takes two seconds. It records the tip height before and after, and whether the robot is halted.
+/// Test changer that needs two seconds for a change. Records before and after the change the tip height and whether the robot is halted.
 struct Carousel {
     rig: Rig,
     holds: bool,
@@ -60,7 +60,7 @@ impl Operator for Person {
     }
 }
 
-/// Outcome for a tip 0.5 mm deep in the gel when the press of a plan needs another specimen.
+/// Outcome of mounting another specimen while the tip is 0.5 mm deep in the gel.
 struct Outcome {
     skipped: Result<bool, RunError>,
     carousel: Carousel,

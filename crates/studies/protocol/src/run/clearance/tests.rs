@@ -22,12 +22,12 @@ impl Operator for Person {
     }
 }
 
-/// Raises the tip of `rig`; the operator answers `answer`.
+/// Raises the tip of a `rig` without enabling switch; the operator answers `answer`.
 fn raised(rig: &Rig, answer: Answer) -> (Result<bool, RunError>, Person) {
     raised_under(rig, answer, None)
 }
 
-/// Raises the tip on a rig with the optional state `enabling` of its enabling switch.
+/// Raises the tip of `rig`; the operator answers `answer`. `enabling` is the state of the enabling switch, if the rig has one.
 fn raised_under(
     rig: &Rig,
     answer: Answer,
@@ -64,7 +64,7 @@ fn raised_under(
     (done, person)
 }
 
-/// Test gel that pushes back below its surface. No two readings are equal.
+/// Test rig with the tip at `height_mm` over a gel that pushes back below its surface. No two readings are equal.
 fn over_a_gel(height_mm: f64) -> Rig {
     Rig::new(height_mm, |question, height_mm| {
         let pressed_mm = (height_mm - CONTACT_MM).max(0.0);

@@ -2,17 +2,17 @@
 
 use taceva_core::Frame;
 
-/// Number of parts along each side of a frame; the mean brightness of each part is compared. Large parts average out the noise in the gentle touch of
-/// a ball. Small parts separate the light and dark sides of the grooves of a board.
+/// Numbers of parts along each side of a frame. The mean brightness of each part is compared. Large parts average out the noise in the gentle touch
+/// of a ball. Small parts separate the light and dark sides of the grooves of a board.
 const SIDES: [usize; 3] = [8, 32, 128];
-/// Least change of a part by a touch, in steps of 255, for each of [`SIDES`].
+/// Least change of mean brightness by which a touch shows in a part, in steps of an 8-bit pixel, for each of [`SIDES`].
 const LEAST: [f64; SIDES.len()] = [0.25, 0.5, 2.0];
 /// Number of averaged frames, because a gentle touch changes little and small cameras are noisy.
 pub(super) const FRAMES: u32 = 4;
-/// Ratio that a touch must exceed: greatest brightness change of a part in contact, divided by the greatest change in the air.
+/// Least ratio that shows a touch: the greatest brightness change of a part in contact, divided by the greatest in the air.
 const CHANGES: f64 = 2.0;
 
-/// Mean brightness of every part over several frames, in steps of an 8-bit pixel: for each of [`SIDES`], row by row.
+/// Mean brightness of every part of the frame, over its pixels and several frames, in steps of an 8-bit pixel. For each of [`SIDES`], row by row.
 pub(super) struct Picture([Vec<f64>; SIDES.len()]);
 
 impl Picture {
@@ -30,7 +30,7 @@ impl Picture {
         }))
     }
 
-    /// Greatest change of a part between this average and `other`, for each of [`SIDES`].
+    /// Greatest brightness change of a part between this average and `other`, for each of [`SIDES`].
     pub(super) fn change(&self, other: &Picture) -> Change {
         let mut changes = [0.0; SIDES.len()];
         for (change, (one, other)) in changes.iter_mut().zip(self.0.iter().zip(&other.0)) {
@@ -44,12 +44,12 @@ impl Picture {
     }
 }
 
-/// Greatest change of a part between two frames, in steps of an 8-bit pixel, for each of [`SIDES`].
+/// Greatest brightness change of a part of the frame between two averages, in steps of an 8-bit pixel, for each of [`SIDES`].
 #[derive(Clone, Copy)]
 pub(super) struct Change([f64; SIDES.len()]);
 
 impl Change {
-    /// Part size at which this change, in contact, most exceeds the change in the air.
+    /// Changes for the part size at which this change, in contact, most exceeds the change `in_air`.
     pub(super) fn against(&self, in_air: &Change) -> Seen {
         let stands_out = |place: &usize| self.0[*place] / threshold(in_air, *place);
         let places = 0..SIDES.len();
@@ -63,35 +63,35 @@ impl Change {
     }
 }
 
-/// Least change in contact that shows a touch, for parts of the size at `place` in [`SIDES`].
+/// Least brightness change in contact that shows a touch, in steps of an 8-bit pixel, for the part size `SIDES[place]`.
 fn threshold(in_air: &Change, place: usize) -> f64 {
     (CHANGES * in_air.0[place]).max(LEAST[place])
 }
 
-/// Greatest changes in contact and in the air, for parts of one size.
+/// Greatest brightness changes in contact and in the air, for parts of one size.
 #[derive(Clone, Copy)]
 pub(super) struct Seen {
     place: usize,
-    /// Greatest change in contact, in steps of an 8-bit pixel.
+    /// Greatest brightness change of a part in contact, in steps of an 8-bit pixel.
     pub(super) in_contact: f64,
-    /// Greatest change in the air, in steps of an 8-bit pixel.
+    /// Greatest brightness change of a part in the air, in steps of an 8-bit pixel.
     pub(super) in_air: f64,
 }
 
 impl Seen {
-    /// True if the change in contact clearly exceeds the change in the air.
+    /// True if the change in contact exceeds [`LEAST`], and exceeds the change in the air by more than the factor [`CHANGES`].
     pub(super) fn shows(&self) -> bool {
         self.in_contact > (CHANGES * self.in_air).max(LEAST[self.place])
     }
 
-    /// Greatest change after the tip has left, if it exceeds the mean of the changes in contact and in the air. Gels recover slowly and never fully.
+    /// Greatest brightness change that remains after contact, if it exceeds the mean of those in contact and in the air. Gels recover slowly.
     pub(super) fn stays(&self, after: &Change) -> Option<f64> {
         let after = after.0[self.place];
         (2.0 * after > self.in_contact + self.in_air).then_some(after)
     }
 }
 
-/// Mean brightness of every part of `frame`, `side` parts along each side, row by row, in steps of an 8-bit pixel.
+/// Mean brightness over the pixels of every part of `frame`, row by row, in steps of an 8-bit pixel. The frame has `side` parts along each side.
 pub(in crate::run) fn means(frame: &Frame, side: usize) -> Vec<f64> {
     let info = frame.info();
     let (width, height) = (info.width as usize, info.height as usize);
@@ -125,7 +125,7 @@ mod tests {
 
     use super::*;
 
-    /// A noisy frame of 40 by 32 pixels with a spot that is brighter by `spot` steps.
+    /// Average of a noisy frame of 40 by 32 pixels with a spot that is brighter by `spot` steps.
     fn picture(seed: u32, spot: u8) -> Picture {
         drawn(seed, |x, y| {
             let is_spot = (18..23).contains(&x) && (14..18).contains(&y);
@@ -133,7 +133,7 @@ mod tests {
         })
     }
 
-    /// A noisy frame whose pixel at x and y is brighter by `brighter(x, y)` steps.
+    /// Average of a noisy frame of 40 by 32 pixels. The pixel at x and y is brighter by `brighter(x, y)` steps.
     fn drawn(seed: u32, brighter: impl Fn(u32, u32) -> u8) -> Picture {
         let info = FrameInfo {
             width: 40,

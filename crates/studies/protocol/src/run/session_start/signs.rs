@@ -1,22 +1,22 @@
-//! Measured axes of a gentle touch, compared with the axes of the rig file.
+//! Directions of the forces in a gentle touch, compared with the axes of the rig file.
 
 use crate::rig_file::{Along, SignedAxes};
 use crate::text::SceneProblem;
 
 const NAMES: [&str; 3] = ["x", "y", "z"];
 
-/// Forces of the press and the sideways pushes, in N along the axes of the rig file.
+/// Forces in the gentle touch, during the press and the sideways pushes, in N along the axes of the rig file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Felt {
     /// Force of the press along +z.
     pub(super) press: [f64; 3],
-    /// Half the difference between the forces of a push to +x (+y) and of its opposite. `None` if noise hides it or the transducer does not measure
-    /// shear.
+    /// Force of a sideways push to +x, and to +y: half the difference to the force of the opposite push. `None` if noise hides the force, or the
+    /// transducer does not measure shear.
     pub(super) pushes: [Option<[f64; 3]>; 2],
 }
 
 impl Felt {
-    /// Checks that each force was measured along its motion, by `axes`.
+    /// Checks that each force was measured along the motion that caused it. `axes` are those of the rig file.
     ///
     /// # Errors
     /// The measured directions, and the axes that would agree with them.
@@ -55,7 +55,7 @@ fn name(along: Along) -> String {
     format!("{sign}{}", NAMES[along.axis])
 }
 
-/// Axis of the greatest component of a force, and its sign.
+/// Axis of the greatest component of `force`, with the sign of the component.
 fn greatest(force: &[f64; 3]) -> Along {
     let mut found = (0, force[0]);
     for (axis, component) in force.iter().enumerate().skip(1) {
@@ -69,7 +69,7 @@ fn greatest(force: &[f64; 3]) -> Along {
     }
 }
 
-/// Completes three signed axes by the cross product of two known axes; `None` if more than one axis is unknown.
+/// Completes three signed axes: the third axis is the cross product of the two known axes. `None` if more than one axis is unknown.
 fn whole(along: [Option<Along>; 3]) -> Option<[Along; 3]> {
     let missing: Vec<usize> = (0..3).filter(|axis| along[*axis].is_none()).collect();
     match missing[..] {
@@ -102,7 +102,7 @@ mod tests {
 
     const TRUE: [&str; 3] = ["x", "-y", "-z"];
 
-    /// Measured forces with `written` in the rig file and a transducer mounted as [`TRUE`].
+    /// Forces of a gentle touch, with the axes `written` in the rig file and those of [`TRUE`] in fact. Noise hides the push along axis `hidden`.
     fn felt(written: SignedAxes, hidden: Option<usize>) -> Felt {
         let mounted = SignedAxes::read(TRUE).expect("axes");
         let felt = |force: [f64; 3]| written.to_sensor(mounted.to_device(force));

@@ -12,7 +12,7 @@ use crate::press::{Motion, Waypoint};
 use crate::rig_file::{RigFile, SignedAxes};
 use crate::run::{Answer, Left, Question, RunError, SessionRecord, StopCause, TouchFault};
 
-/// Runs on a rig file with these axes of the transducer.
+/// Runs a session on the test bench, with `axes` as the transducer axes of the rig file.
 fn with_axes(axes: [&str; 3]) -> (Result<(), RunError>, Memory) {
     let (bench, rig) = (Bench::new(axes), rig_file(axes));
     let session = Session {
@@ -25,7 +25,7 @@ fn with_axes(axes: [&str; 3]) -> (Result<(), RunError>, Memory) {
     (done, log)
 }
 
-/// Runs on a bench with the fault that `change` introduces.
+/// Runs a session on a test bench with the fault that `change` introduces. Returns the cause, the place of the tip and the number of presses.
 fn with_fault(change: impl FnOnce(&mut State)) -> (StopCause, Left, usize) {
     let (bench, rig) = (Bench::new(MOUNTED), rig_file(MOUNTED));
     change(&mut bench.state());

@@ -1,5 +1,5 @@
-//! A gentle touch at the middle of the gel. The tip moves down to the first force, on to three times that force, and slightly sideways. Then it moves
-//! deeper, for the comparison with other sessions, and out again.
+//! A gentle touch at the middle of the gel. The tip descends to the first contact, presses to three times the contact force, and moves slightly
+//! sideways. Then it presses deeper, for the comparison with other sessions, and retreats.
 
 use taceva_core::{Axis, Degree};
 
@@ -18,25 +18,25 @@ use crate::text::SceneProblem;
 
 /// Number of readings averaged for one force.
 const READINGS: u32 = 8;
-/// Minimum number of standard errors for a push to count as measured.
+/// Least ratio of the force of a push to its standard error at which the push counts as measured.
 const ERRORS: f64 = 4.0;
-/// Force of the touch, in multiples of the contact threshold.
+/// Force of the touch before the sideways pushes, in multiples of the contact threshold.
 const RISE: f64 = 3.0;
-/// Greatest force of the touch, as a part of the force limit.
+/// Greatest force of the touch, as a share of the force limit.
 const FORCE_PART: f64 = 0.5;
-/// Greatest depth of the touch, as a part of the depth limit.
+/// Greatest depth of the touch, as a share of the depth limit.
 const DEPTH_PART: f64 = 0.5;
-/// Depth for the comparison with other sessions, in mm, and its greatest fraction of the depth limit and of the force limit. A shallower touch varies
-/// with the height of the contact. Taps use a greater fraction.
+/// Depth for the comparison with other sessions, in mm. A shallower touch varies with the height of the contact.
 const REFERENCE_MM: f64 = 0.3;
+/// Greatest share of the depth limit and of the force limit for this comparison. Taps use a greater share.
 const REFERENCE_PART: f64 = 0.3;
-/// Greatest ratio of the slope of force over depth to force divided by depth: 1.5 for a ball (Hertz).
+/// Greatest ratio dF/dz ÷ (F/z) of the force F at the depth z: 1.5 for a ball (Hertz).
 const SLOPE: f64 = 1.5;
 /// Sideways push to each side, in mm.
 const PUSH_MM: f64 = 0.2;
 
 impl Run<'_> {
-    /// Touches the gel and compares force and picture with the rig file.
+    /// Touches the gel. Compares the forces with the rig file, and the frames in contact with those in the air.
     pub(super) fn touch_gently(
         &mut self,
         session: &SessionSpec<'_>,
@@ -108,7 +108,7 @@ impl Run<'_> {
         })
     }
 
-    /// Continues the press from the first contact at `height_mm` to three times the contact force.
+    /// Continues the press from the first contact at `height_mm` to [`RISE`] times the contact threshold.
     fn press_on(&mut self, height_mm: f64) -> Step<Force> {
         let wanted_n = (RISE * self.tip.pace.air_n).min(FORCE_PART * self.tip.pace.normal_max_n);
         let deepest_mm = self.deepest_mm(height_mm);
@@ -130,7 +130,7 @@ impl Run<'_> {
     }
 
     /// Continues the press to the depth at which sessions are compared. The depth is `earlier_mm`, or at most [`REFERENCE_MM`] in a first session.
-    /// Stops earlier at a part of the force limit.
+    /// Stops earlier at a share of the force limit.
     fn press_deeper(&mut self, height_mm: f64, earlier_mm: Option<f64>) -> Step<Force> {
         let part = match earlier_mm {
             Some(_) => FORCE_PART,
@@ -163,7 +163,7 @@ impl Run<'_> {
         limits.map_or(0.0, |limits| limits.depth_max.0)
     }
 
-    /// Forces of a push to +x and of a push to +y, each as half the difference from its opposite; `None` if not measurable.
+    /// Force of a sideways push to +x, and to +y: half the difference to the force of the opposite push. `None` if the force is not measurable.
     fn push_aside(&mut self) -> Step<[Option<[f64; 3]>; 2]> {
         let measured = self.tip.force.axes();
         let measures_shear = measured.contains(Axis::Fx) && measured.contains(Axis::Fy);
@@ -192,7 +192,7 @@ impl Run<'_> {
         Ok(pushes)
     }
 
-    /// Continues the press until the frames change. Returns the change; `None` without frames.
+    /// Continues the press until the frames show the touch. Returns the brightness changes; `None` without frames.
     fn show_touch(&mut self, height_mm: f64, in_air: &[Option<Picture>; 2]) -> Step<Option<Seen>> {
         let [Some(one), Some(other)] = in_air else {
             return Ok(None);
@@ -219,7 +219,7 @@ impl Run<'_> {
         }
     }
 
-    /// Averages the next frames; `None` without a camera.
+    /// Average of the next [`FRAMES`] frames; `None` without a camera.
     fn picture(&mut self) -> Step<Option<Picture>> {
         let Some(camera) = &mut self.camera else {
             return Ok(None);
@@ -238,8 +238,8 @@ impl Run<'_> {
 }
 
 impl Tip<'_> {
-    /// Descends by steps until the magnitude of the force reaches the threshold. Returns the height of contact, interpolated between the last step
-    /// below the threshold and the first step above. `None` at the end of the search.
+    /// Descends by steps until the magnitude of the force is at least `threshold_n`. Returns the height of contact, interpolated between the last
+    /// step below the threshold and the first step above it. `None` if the search ends before.
     fn feel_down(&mut self, threshold_n: f64) -> Step<Option<Surface>> {
         self.watch(MotionStage::Search);
         let start_mm = self.target.position.z.0;
@@ -283,7 +283,7 @@ impl Tip<'_> {
         Ok(None)
     }
 
-    /// Descends a quarter of a step, at most to `deepest_mm`.
+    /// Descends by a quarter of a step, but not below `deepest_mm`.
     fn deepen(&mut self, deepest_mm: f64) -> Step<()> {
         let z_mm = self.target.position.z.0 + 0.25 * self.pace.step_mm;
         self.deepen_to(z_mm.min(deepest_mm))
@@ -294,7 +294,7 @@ impl Tip<'_> {
         self.approach([middle.x.0, middle.y.0, z_mm])
     }
 
-    /// Mean force on the resting tip.
+    /// Mean force of [`READINGS`] readings while the tip rests.
     fn feel(&mut self) -> Step<Force> {
         let mut sum = [0.0; 3];
         let mut squares = [0.0; 3];
@@ -319,7 +319,7 @@ impl Tip<'_> {
     }
 }
 
-/// Standard uncertainty of a height between two steps, in mm. It follows from the noise of a reading and the rise of the force over the step, in N.
+/// Standard uncertainty of a height interpolated over a step, in mm. `noise_n` is the noise of a reading, `rise_n` the rise of the force in the step.
 fn between_steps_mm(step_mm: f64, noise_n: f64, rise_n: f64) -> f64 {
     // The line between two steps deviates from the curve of a gel by up to an eighth of a step.
     let of_line_mm = step_mm / 8.0 / 3.0_f64.sqrt();
@@ -328,11 +328,11 @@ fn between_steps_mm(step_mm: f64, noise_n: f64, rise_n: f64) -> f64 {
     of_line_mm.hypot(of_noise_mm)
 }
 
-/// Mean of several readings.
+/// Mean force of several readings, by component.
 #[derive(Clone, Copy, Debug, Default)]
 struct Force {
     mean_n: [f64; 3],
-    /// Greatest standard error of any component.
+    /// Greatest standard error of the mean among the three components, in N.
     error_n: f64,
 }
 
@@ -341,7 +341,7 @@ impl Force {
         magnitude(&self.mean_n)
     }
 
-    /// Standard deviation of a single reading.
+    /// Standard deviation of a single reading, in N.
     fn single_n(&self) -> f64 {
         self.error_n * f64::from(READINGS).sqrt()
     }

@@ -5,7 +5,7 @@ use taceva_core::Pose;
 use super::Supervisor;
 use crate::run::halt_reason::Trip;
 
-/// State of an enabling switch.
+/// State of an enabling switch, which a person holds while the robot may move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Enabling {
     /// The switch is held, or the rig has no switch.
@@ -27,7 +27,7 @@ impl Supervisor {
         }
     }
 
-    /// Reason that forbids a motion; `None` while the switch is held.
+    /// Reason why no motion is allowed; `None` while the switch is held.
     pub fn withheld(&self) -> Option<Trip> {
         match self.enabling {
             Enabling::Held => None,
@@ -38,8 +38,7 @@ impl Supervisor {
 
     /// Announces a straight motion before it is sent.
     ///
-    /// # Errors
-    /// [`Supervisor::withheld`], or the trip since the last release. The motion must not be sent in this case.
+    /// # Errors The reason of [`Supervisor::withheld`], or the trip since the last release. The caller must not send the motion then.
     pub fn sent(&mut self, from: Pose, to: Pose) -> Result<(), Trip> {
         if let Some(trip) = self.withheld().or(self.tripped) {
             return Err(self.trip(trip));

@@ -12,25 +12,25 @@ pub enum Observation {
     Numbered(Wrench, Stamp, u64),
     /// Pose during the motion announced by [`Supervisor::sent`](super::Supervisor::sent), read by a guard thread.
     UnderWay {
-        /// Pose.
+        /// Pose of the tip.
         pose: Pose,
         /// Time of the pose.
         stamp: Stamp,
     },
     /// Pose at rest, after a motion to `target`.
     Pose {
-        /// Pose.
+        /// Pose of the tip.
         pose: Pose,
         /// Time of the pose.
         stamp: Stamp,
-        /// Target.
+        /// Target of the motion.
         target: Pose,
     },
-    /// A timeout without a reading.
+    /// A timeout of the transducer without a reading.
     Silence,
 }
 
-/// Stage of a press, which sets the allowed forces.
+/// Stage of a press. It determines which forces are allowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum MotionStage {
@@ -43,15 +43,15 @@ pub enum MotionStage {
     Zeroing,
     /// Approach to the first contact.
     Search,
-    /// In contact, below `height_mm`.
+    /// In contact. Depths are measured from `height_mm`.
     Press {
-        /// Height relative to which depths are measured, in mm of the sensor frame. It is the height of the first contact, or of the fitted surface
-        /// above it.
+        /// Height relative to which depths are measured, in mm of the sensor frame. It is the height of the first contact, or of a surface fitted
+        /// slightly above it.
         height_mm: f64,
     },
-    /// Retreat. The force must not exceed `force_n`.
+    /// Retreat from the gel. The normal force must not exceed `force_n` or the limit of the normal force, whichever is greater.
     Retreat {
-        /// Force at the start of the retreat, in N.
+        /// Normal force at the start of the retreat, in N.
         force_n: f64,
     },
 }

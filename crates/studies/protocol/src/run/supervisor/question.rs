@@ -6,13 +6,13 @@ use super::{SharedSupervisor, Supervisor};
 #[derive(Default)]
 pub(super) struct StandingQuestion {
     stands: bool,
-    /// True if the robot has been halted for a lost force since the question began.
+    /// True if the robot has been halted since the question began, because the force was lost.
     is_halted: bool,
     is_remarked: bool,
 }
 
 impl SharedSupervisor {
-    /// Calls `ask`, which asks the operator a question, and returns its result. The question is active until `ask` returns.
+    /// Calls `ask`, which puts a question to the operator, and returns the answer. The question is open until `ask` returns.
     pub(crate) fn during_question<T>(&self, ask: impl FnOnce() -> T) -> T {
         self.lock().asks(true);
         let answer = ask();
@@ -35,8 +35,8 @@ impl Supervisor {
         self.question.stands
     }
 
-    /// Halts because the transducer cannot be read: at every call, but only once during a question. Returns true if the operator who is being asked has not
-    /// been informed yet.
+    /// Halts the robot because the transducer cannot be read. During a question, only the first call halts it. Returns true if an operator is being
+    /// asked and has not been informed yet.
     pub fn lose_force(&mut self) -> bool {
         if !(self.question.stands && self.question.is_halted) {
             // A halt that fails is repeated.

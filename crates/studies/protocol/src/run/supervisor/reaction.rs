@@ -4,14 +4,14 @@ use taceva_core::whole_size;
 
 /// Time to send a halt, in s.
 const SEND_S: f64 = 0.001;
-/// Percentile of the reaction time. One in a thousand reactions may be later.
+/// Share of reactions that are at most as late as the stated reaction time. One in a thousand may be later.
 const SOONER: f64 = 0.999;
 
 /// Ages of readings on arrival at the supervisor.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Lateness {
     ages_s: Vec<f64>,
-    /// Times of the first and the last reading, in s; `None` before the first reading.
+    /// Times of measurement of the first and the last reading, in s; `None` before the first reading.
     span_s: Option<[f64; 2]>,
 }
 
@@ -22,7 +22,7 @@ impl Lateness {
         self.span_s = Some([first_s, valid_s]);
     }
 
-    /// Reaction time, in s: one period, the age of the next reading, and the time to send a halt. `None` for fewer than two readings.
+    /// Reaction time, in s: the mean period of readings, the age of a late reading, and the time to send a halt. `None` for fewer than two readings.
     pub(super) fn reaction_s(mut self) -> Option<f64> {
         let [first_s, last_s] = self.span_s?;
         let periods = self

@@ -2,13 +2,13 @@
 
 use taceva_core::Wrench;
 
-/// Counts consecutive equal readings, each after a motion.
+/// Count of consecutive force readings that equal the reading before, although the tip moved in between.
 ///
 /// Compares raw readings, so that a new stage, or a zero set by the host, does not reset the count.
 #[derive(Default)]
 pub(super) struct Repeats {
     last: Option<Wrench>,
-    /// Sequence number of the last reading, if it has one.
+    /// Sequence number of the last reading, if readings are numbered.
     number: Option<u64>,
     count: u32,
     moved: bool,
@@ -36,7 +36,7 @@ impl Repeats {
         };
     }
 
-    /// Number of consecutive equal readings, each after a motion.
+    /// Number of consecutive readings that equal the reading before, although the tip moved in between.
     pub(super) fn count(&self) -> u32 {
         self.count
     }

@@ -1,4 +1,4 @@
-//! Tests of readings that must halt, and of readings that must not.
+//! Tests of readings that must halt the robot, and of readings that must not.
 
 mod boundaries;
 mod enabling;
@@ -66,7 +66,7 @@ fn at_height(z: f64) -> Pose {
 
 const PRESS: MotionStage = MotionStage::Press { height_mm: 0.2 };
 
-/// Trip of one observation at 10.02 s in `stage`; checks that the robot is halted for it.
+/// Reason for which one observation at 10.02 s in `stage` halts the robot; `None` without a halt. Checks that the halt was sent.
 fn trip(stage: MotionStage, observation: &Observation) -> Option<Trip> {
     let (mut supervisor, halts) = watching(stage);
     let tripped = supervisor.observe(observation, 10.02).err();

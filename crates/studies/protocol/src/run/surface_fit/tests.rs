@@ -1,8 +1,9 @@
 use super::*;
 use crate::run::rig::Draws;
 
-/// Step of a search and length of its segments, in mm.
+/// Step of a search, in mm.
 const STEP_MM: f64 = 0.1;
+/// Length of a segment of a step, in mm.
 const SEGMENT_MM: f64 = 0.015;
 const THRESHOLD_N: f64 = 0.02;
 const WINDOW_MM: f64 = 0.6;
@@ -10,7 +11,7 @@ const SEEDS: u32 = 200;
 
 /// Readings of a search for a gel at height 0, and the height of the first contact.
 ///
-/// A search reads at the end of each segment, and once more at the end of each step. It begins at a drawn phase, as over a tilted gel.
+/// A search reads at the end of each segment, and once more at the end of each step. The search begins at a random height, as over a tilted gel.
 fn search(seed: u32, noise_n: f64, law: fn(f64) -> f64) -> (Vec<DepthForce>, f64) {
     let mut draws = Draws::new(u64::from(seed));
     // Error of the zero of the force: a mean of sixteen readings.
@@ -34,15 +35,15 @@ fn search(seed: u32, noise_n: f64, law: fn(f64) -> f64) -> (Vec<DepthForce>, f64
     }
 }
 
-/// Errors of the fit over seeds.
+/// Errors of fitted heights over all seeds.
 #[derive(Debug)]
 struct Errors {
     mean_mm: f64,
     deviation_mm: f64,
-    /// Part of the seeds whose error is at most 1.96 standard uncertainties.
+    /// Share of the seeds for which the error is at most 1.96 standard uncertainties.
     held: f64,
     greatest_mm: f64,
-    /// Greatest distance of a fitted height below the gel. The true depth at the limit of depth exceeds it by this distance.
+    /// Greatest depth of a fitted height below the gel, in mm. A press to the depth limit goes deeper than the limit by this amount.
     lowest_mm: f64,
 }
 
@@ -75,7 +76,7 @@ fn linear(depth_mm: f64) -> f64 {
     2.0 * depth_mm
 }
 
-/// Force of a sphere of 2 mm on a gel of 0.3 MPa.
+/// Force in N of a sphere of 2 mm radius at `depth_mm` in a gel of 0.3 MPa.
 fn ball(depth_mm: f64) -> f64 {
     0.754 * depth_mm * depth_mm.sqrt()
 }

@@ -4,27 +4,28 @@ use super::heard::{Said, TapHeard};
 use super::line::Line;
 use crate::rig_file::Latency;
 
-/// Height above the gel above which signals count as in the air, in mm.
+/// Distance above the gel from which on a signal counts as measured in the air, in mm.
 const AIR_MM: f64 = 0.1;
-/// Duration of the end of a tap, in s. The tip rests in the gel, and every device reports this state.
+/// Duration of the last section of a tap, in s. The tip rests in the gel, and every device reports this state.
 const REST_S: f64 = 0.2;
-/// Minimum number of readings, frames or poses in a section of a tap.
+/// Least number of readings, frames or poses in a section of a tap.
 const LEAST: usize = 3;
-/// Part of the change that marks the edge. The signal stays below it in the air, and is well above it at rest.
+/// Share of the whole change of a signal at which its edge lies. In the air, the signal stays below it.
 const EDGE: f64 = 0.5;
+/// Least share of the change that the signal has reached at rest.
 const AT_REST: f64 = 0.75;
-/// Distance from both ends of the motion within which poses are ignored, in mm, because the arm accelerates there.
+/// Distance from either end of the motion within which poses are ignored, in mm, because the arm accelerates there.
 const END_MM: f64 = 0.05;
-/// Least ratio of the fastest to the slowest tap. Below it, offset and latency cannot be separated.
+/// Least ratio of the greatest to the least speed of taps. At a smaller ratio, offset and latency cannot be separated.
 const LEAST_RATIO: f64 = 1.5;
-/// Divisor of the number of taps: at most one tap in this many may be dropped.
+/// Greatest share of dropped taps, as a divisor: at most one tap in four.
 const DROPPED: usize = 4;
-/// Divisor of the number of taps: at most one tap in this many may be dropped as late.
+/// Greatest share of taps dropped as late, as a divisor: at most one tap in five.
 const LATE: usize = 5;
-/// Number of standard deviations that cover 95 of 100 taps.
+/// Number of standard deviations about the mean that contain the delay of 95 of 100 taps.
 const WITHIN: f64 = 2.0;
 
-/// Recorded taps at one place.
+/// Recordings of repeated taps at one place of the gel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tapped {
     contact_mm: f64,
@@ -36,7 +37,7 @@ pub struct Tapped {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TapError {
-    /// A device gave too few values.
+    /// A device gave too few values in a section of a tap.
     #[error(
         "tap {tap}: {count} {what} arrived {stretch}, expected at least {LEAST}: measure the rate of the {device} with `taceva rig check`"
     )]
@@ -45,14 +46,14 @@ pub enum TapError {
         tap: usize,
         /// Name of the device: `robot`, `force` or `sensor`.
         device: &'static str,
-        /// Kind of values of the device.
+        /// Values of the device: `poses`, `readings` or `frames`.
         what: &'static str,
-        /// Section of the tap.
+        /// Section of the tap, in words, such as `in the air before the contact`.
         stretch: &'static str,
-        /// Number of values.
+        /// Number of values in this section.
         count: usize,
     },
-    /// A device does not show the tap clearly. Its signal in the air varies by at least half of its change.
+    /// A device does not show the tap clearly. The signal in the air varies by at least half of the change at the touch.
     #[error(
         "tap {tap}: the {device} signal does not show the tap clearly: in the air the signal varies by {in_air:.2} of its change, expected below \
          {EDGE}; check the mounting, the light and the noise of the device"
@@ -62,7 +63,7 @@ pub enum TapError {
         tap: usize,
         /// Name of the device: `force` or `sensor`.
         device: &'static str,
-        /// Greatest signal in the air, as a part of the change.
+        /// Greatest deviation of the signal in the air, as a share of the change at the touch.
         in_air: f64,
     },
     /// The signal of a device still changes long after the tip came to rest.
@@ -75,7 +76,7 @@ pub enum TapError {
         /// Name of the device: `force` or `sensor`.
         device: &'static str,
     },
-    /// Too many taps are late, so the latency from the other taps would be too short.
+    /// Too many taps are dropped as late, so the remaining taps would show too short a latency.
     #[error(
         "{late} of {taps} taps were left out as late, expected at most a fifth: the remaining taps show too short a latency; run the command again, lower the buffering of the device, or measure its `latency_ms` in another way and write it into the rig file"
     )]
@@ -90,24 +91,24 @@ pub enum TapError {
         "the fast taps are {ratio:.2} times as fast as the slow taps, expected 3, so distance and latency cannot be separated: check whether the controller limits the speed"
     )]
     OneSpeed {
-        /// Greatest speed divided by the least.
+        /// Speed of the fastest tap divided by that of the slowest.
         ratio: f64,
     },
-    /// Taps contradict each other.
+    /// The latency of a device differs too much between taps.
     #[error(
         "the latency of the {device} varies by {spread_ms:.1} ms between taps, expected at most half a frame, {allowed_ms:.1} ms: stop other traffic and other programs, run with `chrt -f 10` if you do not yet, and check the rig for vibration"
     )]
     Spread {
         /// Name of the device: `force` or `sensor`.
         device: &'static str,
-        /// Two standard deviations of a tap, in ms.
+        /// Two standard deviations of the delay of a single tap, in ms.
         spread_ms: f64,
         /// Greatest allowed spread, in ms.
         allowed_ms: f64,
     },
 }
 
-/// Motion of the tip in one tap, from a straight line through its poses.
+/// Motion of the tip in one tap, as a straight line fitted to its poses over time.
 #[derive(Clone, Copy, Debug)]
 struct Passage {
     /// Time at which the tip passed the reference height, in s.
@@ -115,7 +116,7 @@ struct Passage {
     speed_mm_s: f64,
 }
 
-/// Passage of the tip in one tap, and times at which transducer and sensor show half of their change, in s.
+/// Motion of the tip in one tap, and the times in s at which the signals of transducer and sensor have changed by half.
 #[derive(Clone, Copy, Debug)]
 struct TapEdges {
     passage: Passage,
@@ -124,10 +125,10 @@ struct TapEdges {
 }
 
 impl Tapped {
-    /// Number of taps, alternating between the speed of contact and a part of it.
+    /// Number of taps. They alternate between the speed in contact and a slower speed.
     pub const TAPS: u32 = 20;
 
-    /// Empty record of taps on a gel at the height `contact_mm`. The tip passes `reference_mm` at the time of each tap.
+    /// Empty record of taps on a gel at the height `contact_mm`. The time at which the tip passes `reference_mm` counts as the time of a tap.
     pub(super) fn new(contact_mm: f64, reference_mm: f64) -> Tapped {
         Tapped {
             contact_mm,
@@ -140,15 +141,16 @@ impl Tapped {
         self.taps.push(heard);
     }
 
-    /// Number of taps.
+    /// Number of recorded taps.
     pub fn count(&self) -> usize {
         self.taps.len()
     }
 
     /// Latencies of the transducer and of the sensor.
     ///
-    /// Each tap gives the delay between two times: the tip passes the reference height, and a device shows half of its change. Over all taps the
-    /// delay is L + δ/v, a line in the reciprocal of the speed v. L is the latency, δ the offset of the half change below the reference height.
+    /// Each tap gives a delay: from the time at which the tip passes the reference height, to the time at which the signal of a device has changed by
+    /// half. Over all taps the delay is L + δ/v, a line in the reciprocal of the speed v. L is the latency. δ is the distance below the reference
+    /// height at which the signal has changed by half.
     ///
     /// A tap that a device does not show clearly is dropped, up to a quarter of all taps. A late tap is dropped, up to a fifth of all taps.
     ///
@@ -209,7 +211,7 @@ impl Tapped {
         late_among(&self.dropped())
     }
 
-    /// Edges of each tap, in order.
+    /// Motion and signal edges of each tap, in order; the reason for a dropped tap.
     fn edges(&self) -> Vec<Result<TapEdges, TapError>> {
         let taps = self.taps.iter().enumerate();
         taps.map(|(place, heard)| self.edges_of(place + 1, heard))
@@ -255,7 +257,7 @@ impl Tapped {
         })
     }
 
-    /// Median time between frames, in s.
+    /// Median time between the frames of all taps, in s.
     fn frame_period_s(&self) -> f64 {
         let between = |heard: &TapHeard| -> Vec<f64> {
             let pairs = heard.frames.windows(2);
@@ -267,7 +269,7 @@ impl Tapped {
     }
 }
 
-/// Name of one device in one tap, for errors.
+/// Description of one device in one tap, for errors.
 struct Listened {
     tap: usize,
     device: &'static str,
@@ -275,7 +277,7 @@ struct Listened {
 }
 
 impl Listened {
-    /// Time at which half of the change was reached, in s. Before `air_s`, the tip touches nothing.
+    /// Time at which the signal `said` has changed by half, in s. Before `air_s`, the tip touches nothing.
     fn edge_s(&self, said: &Said, air_s: f64) -> Result<f64, TapError> {
         let Listened { tap, device, what } = *self;
         let end_s = said.last().map_or(0.0, |(at_s, _)| *at_s);
@@ -360,7 +362,7 @@ fn mean(rows: &[&[f64]]) -> Vec<f64> {
     sums.into_iter().map(|sum| sum / count.max(1.0)).collect()
 }
 
-/// Latency from pairs of a reciprocal speed and a delay, in s: the delay extrapolated to infinite speed.
+/// Latency from pairs `late` of a reciprocal speed and a delay in s: the delay extrapolated to infinite speed.
 fn intercept(late: &[(f64, f64)]) -> Latency {
     let line = Line::through(late);
     Latency {

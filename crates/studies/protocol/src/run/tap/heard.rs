@@ -4,7 +4,7 @@ use taceva_core::{Frame, Pose, Stamp, Wrench};
 
 use crate::run::session_start::picture::means;
 
-/// Number of parts along each side of a frame; the mean brightness of each part is recorded.
+/// Number of parts along each side of a frame. The mean brightness over the pixels of each part is recorded.
 const PARTS: usize = 8;
 
 /// Values of every device, from before a tap to the rest after it, each with the time of its stamp.
@@ -18,7 +18,7 @@ const PARTS: usize = 8;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TapHeard {
-    /// Heights of the tip, as pairs in s and mm.
+    /// Heights of the tip in the sensor frame: pairs of a time in s and a height in mm.
     pub(super) heights: Vec<(f64, f64)>,
     pub(super) forces: Said,
     pub(super) frames: Said,
@@ -28,7 +28,7 @@ pub struct TapHeard {
 pub(super) type Said = Vec<(f64, Vec<f64>)>;
 
 impl TapHeard {
-    /// Adds a pose.
+    /// Adds the height of `pose` to the recording, unless its stamp is not newer than the last.
     pub fn pose(&mut self, pose: &Pose, stamp: &Stamp) {
         let is_news = self
             .heights
@@ -39,19 +39,19 @@ impl TapHeard {
         }
     }
 
-    /// Adds a reading of the transducer.
+    /// Adds a force reading of the transducer to the recording.
     pub fn force(&mut self, wrench: &Wrench, stamp: &Stamp) {
         let forces = wrench.force.map(|force| force.0).to_vec();
         add(&mut self.forces, forces, stamp);
     }
 
-    /// Adds a frame of the sensor.
+    /// Adds a frame of the sensor to the recording, as the mean brightness of its parts.
     pub fn frame(&mut self, frame: &Frame, stamp: &Stamp) {
         add(&mut self.frames, means(frame, PARTS), stamp);
     }
 }
 
-/// Adds a value with a newer stamp. Skips repeats, because a device may be read faster than it updates.
+/// Adds a value to `said` if its stamp is newer than the last. Repeats are skipped, because a device may be read faster than it updates.
 fn add(said: &mut Said, numbers: Vec<f64>, stamp: &Stamp) {
     if said
         .last()

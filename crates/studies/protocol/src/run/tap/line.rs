@@ -1,16 +1,17 @@
-//! A straight line through points.
+//! Fit of a straight line to points.
 
-/// A straight line by least squares.
+/// A straight line y = `at_zero` + `slope` · x, fitted by least squares.
 pub(super) struct Line {
     pub(super) at_zero: f64,
     pub(super) slope: f64,
-    /// Standard deviation of a point from the line, and standard error of `at_zero`.
+    /// Standard deviation of a point from the line, along y.
     pub(super) deviation: f64,
+    /// Standard error of `at_zero`.
     pub(super) error: f64,
 }
 
 impl Line {
-    /// Line through pairs of x and y.
+    /// Fits a line through pairs of x and y.
     pub(super) fn through(points: &[(f64, f64)]) -> Line {
         let mut count = 0.0_f64;
         let (mut sum_x, mut sum_y) = (0.0, 0.0);

@@ -1,4 +1,4 @@
-//! A scene and its studies, as parsed.
+//! A scene and its studies, as parsed from TOML before any check.
 
 use serde::Deserialize;
 

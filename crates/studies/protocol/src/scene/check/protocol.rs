@@ -6,10 +6,11 @@ use crate::scene::counts::{PosePairs, Protocol, ShapePresses};
 use crate::scene::metrics::MetricsSpec;
 use crate::scene::task_metrics::{missing_line, phase_of_task};
 
-/// Greatest count in a scene.
+/// Greatest accepted count in a scene, such as a number of points or presses.
 pub(super) const GREATEST_COUNT: u64 = 1_000_000;
-/// Least and greatest side of a pixel of a depth map, in mm.
+/// Least accepted side of a pixel of a depth map, in mm.
 const LEAST_PIXEL_MM: f64 = 0.05;
+/// Greatest accepted side of a pixel of a depth map, in mm.
 const GREATEST_PIXEL_MM: f64 = 5.0;
 
 impl Check<'_> {
@@ -126,7 +127,7 @@ impl Check<'_> {
         self.contradiction(shift.at(), &problem)
     }
 
-    /// Refuses a requested score of a task for which the protocol has no press.
+    /// Rejects a requested score of a task whose presses the protocol does not request.
     pub(super) fn tasks(&self, metrics: &MetricsSpec, protocol: &Protocol) -> Checked {
         for name in metrics.want.iter().flatten() {
             let phase = phase_of_task(&name.value);

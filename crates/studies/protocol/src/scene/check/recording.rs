@@ -1,4 +1,4 @@
-//! Table `[recording]` of a scene, as parsed.
+//! Table `[recording]` of a scene, as parsed before any check.
 
 use std::fmt;
 
@@ -15,11 +15,11 @@ pub(super) struct WrittenRecording {
     pub(super) frames: Option<Setting<WrittenSize>>,
 }
 
-/// Text of a size.
+/// Size of a frame as written, such as `64x48`.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct WrittenSize(pub(super) String);
 
-/// Also accepts a number, so that the check can reject it with the key and the expected form.
+/// Reads a text. Also accepts a number, so that the check can reject it with the key and the expected form.
 impl<'de> Deserialize<'de> for WrittenSize {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<WrittenSize, D::Error> {
         struct Size;

@@ -1,4 +1,4 @@
-//! Checks of the faults of a scene. The program that knows the faults checks their names.
+//! Checks of the table `[stress]` of a scene. The program that knows the faults checks their names.
 
 use super::document::WrittenScene;
 use super::{Check, Checked};
@@ -40,7 +40,7 @@ impl Check<'_> {
         }
     }
 
-    /// Checks the faults of plugins: valid and distinct names, and a table `[stress]` that tests them.
+    /// Checks the faults of plugins: names must be valid and distinct, and a table `[stress]` must exist to test the faults.
     pub(super) fn plugin_faults(&self, written: &WrittenScene) -> Checked {
         for (number, fault) in written.fault.iter().enumerate() {
             self.name("a fault", &fault.name)?;

@@ -15,9 +15,9 @@ use crate::scene::study::Study;
 use crate::text::Setting;
 use crate::text::{SceneError, SceneProblem};
 
-/// Name of the table of the sensor.
+/// Name of the table of the sensor in a scene.
 const SENSOR: &str = "[sensor]";
-/// Greatest number of folds. More folds cost more trainings and hardly more training points.
+/// Greatest number of folds of a cross-validation. More folds cost more trainings, and hardly increase the training part of each.
 const FOLDS_MAX: u64 = 20;
 
 impl Check<'_> {
@@ -119,7 +119,7 @@ impl Check<'_> {
         })
     }
 
-    /// Rejects a split beside a fitted model, which has its own split, and a split beside folds.
+    /// Rejects a split together with a fitted model, which has its own split. Rejects a split together with folds.
     fn split(&self, model: &ModelSpec) -> Checked {
         let Some(split) = &model.split else {
             return Ok(());
@@ -135,7 +135,7 @@ impl Check<'_> {
         Ok(())
     }
 
-    /// Checks the number of folds of `model`. Rejects folds of a fitted model, and folds in a run that stores its model.
+    /// Checks the number of folds of `model`. Rejects folds together with a fitted model, and in a run that stores its model.
     fn folds(&self, model: &ModelSpec, report: &ReportSpec) -> Checked {
         let Some(folds) = &model.folds else {
             return Ok(());
@@ -215,7 +215,7 @@ impl Check<'_> {
         }
     }
 
-    /// Rejects devices in a scene with a rig file, which names the devices itself.
+    /// Rejects a scene that names both devices and a rig file. The rig file names the devices.
     fn no_device(
         &self,
         sensor: Option<&Setting<String>>,

@@ -1,4 +1,4 @@
-//! Checks of the cycles of load that wear a gel.
+//! Checks of the load cycles that wear a gel.
 
 use super::protocol::GREATEST_COUNT;
 use super::{Check, Checked};
@@ -55,7 +55,7 @@ impl Check<'_> {
         self.count("cycles", &greatest, 0, GREATEST_COUNT)
     }
 
-    /// Replaces each of `studies` by its stages of `wear`.
+    /// Replaces each study by one study for each stage of `wear`, named after the number of cycles.
     pub(super) fn stages(
         &self,
         studies: Vec<Study>,

@@ -1,4 +1,4 @@
-//! Certificates in a rig file, and every kind of certificate that is refused.
+//! Tests of certificates in a rig file, and of every kind of invalid certificate.
 
 use taceva_core::{Certificate, Coverage};
 use taceva_protocol::RigFile;
@@ -29,7 +29,7 @@ fn certificate(text: &str) -> Certificate {
     force.certificate.expect("a certificate")
 }
 
-/// The message about the whole certificate with one change.
+/// Error message for a complete certificate in which `from` is replaced by `to`.
 fn refused(from: &str, to: &str) -> String {
     let text = format!("{HEAD}{REST}");
     assert!(text.contains(from), "{from}");

@@ -26,7 +26,7 @@ latency_ms = 38.0
 speed_max_mm_s = 20.0
 "#;
 
-/// Scene with the facts of a sensor whose camera states none.
+/// Scene that states facts of a sensor, because the sensor's camera states none.
 const SCENE: &str = r#"scene_version = 1
 name = "my gel"
 rig = "lab.toml"
@@ -49,7 +49,7 @@ fn put_on(scene: &str, rig: &str) -> Scene {
     scene
 }
 
-/// Result of planning [`SCENE`] on `rig`.
+/// Outcome of planning `scene` on the devices of `rig`: the error message if it fails.
 fn planned_on(scene: &str, rig: &str) -> Result<(), String> {
     let devices = devices();
     plan(&put_on(scene, rig), |_| {
@@ -59,7 +59,7 @@ fn planned_on(scene: &str, rig: &str) -> Result<(), String> {
     .map_err(|error| error.to_string())
 }
 
-/// An arm that reaches 500 mm along x of its base and 300 mm above the table, and a transducer of Fz alone.
+/// Test devices: an arm that reaches 500 mm along x of its base and 300 mm above the table, and a transducer that measures only Fz.
 fn devices() -> RigInfo {
     let corner = |x: f64, y: f64, z: f64| {
         let [x, y, z] = [x, y, z].map(Millimetre);
@@ -308,7 +308,7 @@ fn a_robot_that_moves_in_its_base_frame_is_refused_without_a_rig_file_that_maps_
     planned(&put_on(SCENE, RIG)).expect("it is mapped");
 }
 
-/// Real devices of a gel whose transducer states the range `range_n`.
+/// Test devices that count as real. The transducer states the range `range_n`, in N.
 fn real_devices(range_n: f64) -> RigInfo {
     let real = |key: &'static str, facts: Facts| {
         let spec = DescriptorSpec::new(DriverKey::fixed(key), key, DriverSource::Real, facts);

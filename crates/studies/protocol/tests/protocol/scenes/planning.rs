@@ -223,7 +223,7 @@ fn more_presses_than_any_gel_survives_are_refused() {
     }
 }
 
-/// A rig whose sensor states its frame size.
+/// Test rig whose sensor states the size of its frames.
 fn seeing() -> RigInfo {
     let info = FrameInfo {
         width: 160,

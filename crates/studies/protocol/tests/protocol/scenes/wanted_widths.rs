@@ -5,7 +5,7 @@ use taceva_protocol::{Scene, WantedWidth};
 
 use super::{GOOD, descriptor, planned, rig, with};
 
-/// Lines of a scene that wants `width` for the interval of `score`.
+/// Lines to add to a scene that wants an interval of `score` with at most `width`.
 fn wanted(score: &str, width: &str) -> String {
     format!("[metrics]\nwant_width = {{ \"{score}\" = \"{width}\" }}")
 }

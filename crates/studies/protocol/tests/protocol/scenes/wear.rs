@@ -5,7 +5,7 @@ use taceva_protocol::{Plan, RigInfo, Scene, SourceInfo, WearLoad, plan};
 
 use super::{GOOD, descriptor, message, planned, rig, with};
 
-/// The valid scene with stages of wear by `lines`.
+/// Valid scene with stages of wear, set by `lines` of the table `[protocol.wear]`.
 fn worn(lines: &str) -> String {
     format!("{GOOD}[protocol.wear]\n{lines}\n")
 }

@@ -3,15 +3,15 @@
 use serde_json::Value;
 use taceva_core::shown;
 
-/// Maximum number of characters of a value in a message.
+/// Greatest number of characters of a value that a message quotes.
 const MOST: usize = 60;
 
-/// Keys whose values depend on other values. Differences in the other values are reported first.
+/// Keys of a plan whose values follow from other values. Differences in other keys are reported first.
 const FOLLOWING: [&str; 3] = ["cost", "digest", "rig"];
-/// Value of a missing key.
+/// Value that replaces the value of a missing key in a comparison.
 static NULL: Value = Value::Null;
 
-/// First line that differs between two scenes, `line 3 was …`; `None` for equal scenes.
+/// Text of the first line that differs between two scenes, such as `line 3 was …`; `None` for equal scenes.
 pub(super) fn of_scenes(before: &str, now: &str) -> Option<String> {
     let mut lines = (before.lines(), now.lines());
     (1_u32..)
@@ -33,14 +33,14 @@ pub(super) fn of_scenes(before: &str, now: &str) -> Option<String> {
         })
 }
 
-/// True for equal plans. Plans of earlier builds name no operator.
+/// True if two texts have equal plans. `before` may lack the name of the operator, which earlier builds did not write.
 pub(super) fn are_same_plans(before: &str, now: &str) -> bool {
     let read = |text: &str| serde_json::from_str::<Value>(text).ok();
     let same = |(before, now): (Value, Value)| of_values("", &before, &now).is_none();
     before == now || read(before).zip(read(now)).is_some_and(same)
 }
 
-/// First value that differs between two texts of plans, such as `studies.0.seed was 1 and is now 2`; `None` for equal plans.
+/// Text of the first value that differs between two texts of plans, such as `studies.0.seed was 1 and is now 2`; `None` for equal plans.
 pub(super) fn of_plans(before: &str, now: &str) -> Option<String> {
     let read = |text: &str| serde_json::from_str::<Value>(text).ok();
     of_values("", &read(before)?, &read(now)?)
@@ -89,7 +89,7 @@ fn of_values(path: &str, before: &Value, now: &Value) -> Option<String> {
     }
 }
 
-/// Name of an operator in words.
+/// Words for the name of an operator, quoted, or `not named`.
 fn person(name: &Value) -> String {
     let name = name.as_str().map(|name| format!("`{}`", shortened(name)));
     name.unwrap_or_else(|| "not named".to_owned())

@@ -1,4 +1,4 @@
-//! State of a run folder: the scene of its run, and completeness of its recordings.
+//! State of a run folder: the plans of the run, and completeness of recordings.
 
 use std::fs;
 use std::path::Path;
@@ -13,7 +13,7 @@ use super::{RunFolder, difference, slug};
 use crate::error::StudyError;
 
 impl RunFolder {
-    /// Run folder for `scene` below `parent`, named after the scene. The folder may not exist yet.
+    /// Run folder for `scene` below `parent`, named after the scene. This function does not create the folder.
     pub fn named(parent: &Path, scene: &PlannedScene) -> RunFolder {
         RunFolder {
             path: parent.join(slug(&scene.scene.name)),
@@ -37,7 +37,7 @@ impl RunFolder {
         }
     }
 
-    /// Message that the run in the folder has another plan, with the first differences.
+    /// Message for a folder whose run has another plan, with the first differences.
     fn other_plan(&self, scene: &PlannedScene, before: &str, now: &str) -> String {
         let text = fs::read_to_string(self.path.join(SCENE)).ok();
         let line = text.and_then(|text| difference::of_scenes(&text, &scene.text.text));

@@ -1,4 +1,4 @@
-//! Spacings predicted by a model that returns one of its training labels.
+//! Spacings of gratings, predicted by a model that returns one of its training labels.
 
 use taceva_core::{
     Channel, Channels, FeatureShape, Features, Nanometre, Regressor, Targets, TrainingSet, Unit,
@@ -9,7 +9,7 @@ use crate::classifier::ModelClassifier;
 use taceva_evaluate::EvaluateError;
 use taceva_evaluate::Work;
 
-/// Predicts the spacings of the spectra `asked`, by a model fitted on the spectra `known` and their spacings.
+/// Predicts the spacings of boards with the spectra `asked`, by a model fitted on the spectra `known` with `spacings`.
 pub(super) fn predict(
     classifier: &ModelClassifier,
     known: &[Vec<f64>],

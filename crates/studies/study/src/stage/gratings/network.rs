@@ -1,4 +1,4 @@
-//! Spacings predicted by a network.
+//! Spacings of gratings, predicted by a network.
 
 use taceva_core::{ModelError, Nanometre};
 use taceva_dataset::Dataset;
@@ -9,7 +9,7 @@ use taceva_evaluate::EvaluateError;
 use taceva_evaluate::Work;
 use taceva_evaluate::{extract, extractor};
 
-/// Classifies `presses` on the frames of `dataset`, fold by fold.
+/// Predicts the spacing of each of `presses` from the frames of `dataset`, one fold after another, and adds it to `predicted`.
 pub(super) fn classify(
     dataset: &Dataset,
     presses: &[(usize, Nanometre)],

@@ -1,4 +1,4 @@
-//! Spacings predicted from the radial spectrum, by linear discriminants or by a model.
+//! Spacings of gratings, predicted from the radial spectra of frames, by linear discriminants or by a model.
 
 use taceva_core::Nanometre;
 use taceva_dataset::{Dataset, Pass};
@@ -9,11 +9,11 @@ use crate::classifier::ModelClassifier;
 use taceva_evaluate::EvaluateError;
 use taceva_evaluate::Work;
 
-/// Limit on the memory of Fourier planes stored together, in bytes. Frames are decoded twice if their planes need more.
+/// Greatest memory for the Fourier planes of all frames, in bytes. If they need more, each frame is decoded twice instead.
 const HELD_BYTES: u64 = 512 << 20;
 
-/// Number of times the frames of `presses` presses of `dataset` are decoded. One pass is enough if all Fourier planes fit in memory; otherwise a
-/// first pass computes the mean.
+/// Number of times that each frame of `presses` presses is decoded: once if all Fourier planes fit in memory. Otherwise a first pass computes the
+/// backgrounds, and a second pass the spectra.
 pub(super) fn times_decoded(dataset: &Dataset, presses: usize) -> u64 {
     let info = dataset.header().frames.as_ref().map(|frames| frames.info);
     let plane = info.map_or(0, |info| RadialSpectrum::new(info).plane_bytes());
@@ -23,14 +23,14 @@ pub(super) fn times_decoded(dataset: &Dataset, presses: usize) -> u64 {
     }
 }
 
-/// Classifier that is fitted to the spectra of each fold.
+/// Kind of classifier that is fitted to the spectra outside each fold.
 #[derive(Clone, Copy)]
 pub(super) enum ByFold<'a> {
     Discriminants,
     Model(&'a ModelClassifier),
 }
 
-/// Classifies `presses` on the frames of `dataset`, fold by fold.
+/// Predicts the spacing of each of `presses` from the frames of `dataset`, one fold after another, and adds it to `predicted`.
 pub(super) fn classify(
     dataset: &Dataset,
     presses: &[(usize, Nanometre)],
@@ -45,22 +45,22 @@ pub(super) fn classify(
     Ok(())
 }
 
-/// A press on a board.
+/// A press on a board, with its spectra.
 struct Seen {
     row: usize,
     spacing: Nanometre,
     fold: usize,
-    /// Spectrum of the press for each fold, computed after the background of the fold was subtracted.
+    /// Spectrum of the frame for each fold, after subtraction of the background of that fold.
     spectra: Vec<Vec<f64>>,
 }
 
-/// Frames of the presses on one relief.
+/// Frames of the presses on boards with one kind of grating.
 struct Pictures<'a> {
     dataset: &'a Dataset,
     spectra: RadialSpectrum,
     presses: &'a [(usize, Nanometre)],
     rows: Vec<usize>,
-    /// Fold of each press. The presses of one board are assigned to folds in turn.
+    /// Index of the fold of each press. The presses of one board are assigned to the folds in turn.
     folds: Vec<usize>,
     work: Work<'a>,
 }
@@ -127,7 +127,7 @@ impl<'a> Pictures<'a> {
         Ok(seen)
     }
 
-    /// Sum and number of the Fourier planes outside each fold; calls `keep` once with each plane.
+    /// Backgrounds: for each fold, the sum and the number of the Fourier planes of frames outside it. Calls `keep` once with each plane.
     fn backgrounds(
         &self,
         mut keep: impl FnMut(FourierPlane),
@@ -156,7 +156,7 @@ impl<'a> Pictures<'a> {
     }
 }
 
-/// Classifies the presses of `fold` by a classifier fitted on the other folds.
+/// Predicts the spacings of the presses of `fold`, by a classifier fitted on the other folds.
 fn classify_fold(
     seen: &[Seen],
     fold: usize,

@@ -11,7 +11,7 @@ use crate::waiting::guard::{depth_mm, stopped};
 use crate::waiting::record_by_hand;
 use crate::waiting::world::World;
 
-/// Scene with frames at six places.
+/// Scene that captures frames of presses at six contact points.
 const SEEN: &str = r#"
 scene_version = 1
 name = "wall"
@@ -26,10 +26,10 @@ contact = { clearance_mm = 0.3, search_mm = 0.5, speed_mm_s = 5.0, travel_mm_s =
 calibration = { points = 6, indentations = 2, shear_mm = 0.0 }
 "#;
 
-/// Number of frames after which a camera without noise is checked for equal frames.
+/// Number of frames that the test camera takes before it freezes. By then, equal frames count as a fault.
 const LIVE_PICTURES: u32 = 10;
 
-/// Progress receiver that freezes the camera in the gel after its first frames.
+/// Progress receiver that freezes the camera while the tip is in the gel, after the camera has taken [`LIVE_PICTURES`] frames.
 struct Freezes<'a>(&'a World);
 
 impl Progress for Freezes<'_> {
@@ -41,7 +41,7 @@ impl Progress for Freezes<'_> {
     }
 }
 
-/// Progress receiver that makes the camera fail when the tip is in the gel.
+/// Progress receiver that makes the camera fail when the tip is in the gel for the first time.
 struct Spoils<'a>(&'a World, ErrorKind, AtomicBool);
 
 impl Progress for Spoils<'_> {

@@ -1,4 +1,4 @@
-//! Tests of changers for specimens and units: their order of motion, the manual alternative, and failures.
+//! Tests of changers for specimens and units: they move only while the robot is halted, an operator can replace them, and they may fail.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Condvar, Mutex};
@@ -17,7 +17,7 @@ use crate::waiting::record_on;
 use crate::waiting::session::{self, UPRIGHT, rig_file, scene};
 use crate::waiting::world::{Misfortune, World};
 
-/// Scene of two units, each with its surface measured at two places. The tip is slow in contact, so that a busy machine keeps up.
+/// Scene of two units, each with its surface measured at two places. The tip is slow in contact, so that signals arrive in time on a busy machine.
 const SCENE: &str = r#"
 scene_version = 1
 name = "wall"
@@ -32,12 +32,12 @@ want = ["inter_sensor"]
 contact = { clearance_mm = 0.3, search_mm = 0.5, speed_mm_s = 1.5, travel_mm_s = 50.0, settle_s = 0.01 }
 surface = { points = 2 }
 "#;
-/// Specimen of the scene.
+/// Name of the specimen of the scene.
 const BALL: &str = "sphere of radius 2 mm";
-/// Duration of a change, and interval at which the changer checks that the robot does not move.
+/// Duration of a change. The changer checks that the robot does not move meanwhile.
 const CHANGE: Duration = Duration::from_millis(100);
 
-/// A changer that observes the robot during a change.
+/// Test changer that records before and after a change the height of the tip, and whether the robot is halted and moved.
 pub(crate) struct Carousel {
     world: World,
     holds: Vec<String>,
@@ -55,7 +55,7 @@ impl Interrupt for Bell {
 }
 
 impl Bell {
-    /// True if the carousel was notified within `patience`. Resets the notification.
+    /// True if the carousel was interrupted within `patience`. Resets the notification.
     fn rang_within(&self, patience: Duration) -> bool {
         let held = self.0.lock().expect("whole");
         let waited = self.1.wait_timeout_while(held, patience, |rang| !*rang);
@@ -109,7 +109,7 @@ impl Changer for Carousel {
     }
 }
 
-/// Rig file of a world with `changers`. It states that the rig is emulated, so that no operator has to enable the robot.
+/// Path of a new rig file with the changers in `changers`. It states that the rig is emulated, so that no operator has to enable the robot.
 fn rig(folder: &Path, changers: &str) -> PathBuf {
     let path = rig_file(folder, UPRIGHT);
     let text = std::fs::read_to_string(&path).expect("written");
@@ -118,7 +118,7 @@ fn rig(folder: &Path, changers: &str) -> PathBuf {
     path
 }
 
-/// Changers that contain every item.
+/// Lines of a rig file for two changers, which hold the specimen and both units of the scene.
 fn both() -> String {
     format!(
         "specimen = \"wall/carousel:holds={BALL}\"\nunit = \"wall/revolver:holds=a+b\"\npatience_s = 0.5"
@@ -247,7 +247,7 @@ fn a_changer_that_fails_ends_an_unattended_run_with_everything_recorded_and_the_
     }
 }
 
-/// Operator who answers and records the questions, and repairs the changer.
+/// Test operator who records the questions, repairs the changer, and answers that the step is done.
 struct Person(World, Vec<Question>);
 
 impl Operator for Person {
@@ -319,7 +319,7 @@ fn a_changer_that_is_none_or_holds_nothing_is_refused_with_its_line() {
     }
 }
 
-/// Progress receiver that requests a stop while the changer moves.
+/// Progress receiver that requests a stop 300 ms after the given time, while the changer moves.
 struct StopsMeanwhile(Instant);
 
 impl Progress for StopsMeanwhile {

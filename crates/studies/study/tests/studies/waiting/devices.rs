@@ -1,4 +1,4 @@
-//! Drivers of the emulated world.
+//! Drivers of the devices of an emulated rig, `World`.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -16,7 +16,7 @@ use crate::waiting::changer::Carousel;
 use crate::waiting::world::{World, pose};
 
 const ROBOT: DriverKey = DriverKey::fixed("wall/robot");
-/// Key of the same robot with poses in a base frame.
+/// Key of the test robot if it reports poses in a base frame.
 const ARM: DriverKey = DriverKey::fixed("wall/arm");
 const FORCE: DriverKey = DriverKey::fixed("wall/force");
 const SWITCH: DriverKey = DriverKey::fixed("wall/pedal");
@@ -24,12 +24,12 @@ pub(crate) const CAROUSEL: DriverKey = DriverKey::fixed("wall/carousel");
 const REVOLVER: DriverKey = DriverKey::fixed("wall/revolver");
 const LAMP: DriverKey = DriverKey::fixed("wall/lamp");
 const SENSOR: DriverKey = DriverKey::fixed("wall/gel");
-/// Interval between readings, in s.
+/// Interval between force readings, in s.
 const READING_S: f64 = 0.005;
-/// Delay of the time stamps of readings, in ms.
+/// Delay between a force and its time stamp, in ms.
 const LATENCY_MS: f64 = 1.0;
 
-/// Drivers of `world`.
+/// Drivers of the devices of the emulated rig `world`.
 pub(crate) fn drivers(world: &World) -> Drivers {
     let robot = RobotFacts::default().with_repeatability(Millimetre(0.002));
     let force = ForceFacts::default()
@@ -89,7 +89,7 @@ fn unplugged(doing: &'static str) -> DriverError {
     DriverError::new(ErrorKind::Disconnected, &SWITCH, doing).because("it was unplugged")
 }
 
-/// Foot pedal as the enabling switch.
+/// Test enabling switch: a foot pedal.
 struct Pedal(World);
 
 impl EnablingSwitch for Pedal {
@@ -102,7 +102,7 @@ impl EnablingSwitch for Pedal {
     }
 }
 
-/// Factory that opens a device of a world.
+/// Factory that opens one device of an emulated rig.
 struct OnWall {
     descriptor: Descriptor,
     world: World,
@@ -123,7 +123,7 @@ impl OnWall {
     }
 }
 
-/// Implements the factory for a kind of device.
+/// Implements `Factory` of [`OnWall`] for one kind of device.
 macro_rules! opens {
     ($kind:ty, $device:path) => {
         impl Factory<$kind> for OnWall {
@@ -154,7 +154,7 @@ impl Factory<dyn Changer> for OnWall {
     }
 }
 
-/// Names in an argument, separated by `+`.
+/// Names in the driver argument `holds`, separated by `+`.
 fn held(args: &Args) -> Vec<String> {
     args.text("holds").split('+').map(str::to_owned).collect()
 }
@@ -164,7 +164,7 @@ opens!(dyn ForceTransducer, Transducer);
 opens!(dyn Sensor, Gel);
 opens!(dyn Lighting, Lamp::over);
 
-/// Scenes of the lamp.
+/// Names of the light scenes of the test lamp.
 fn scenes() -> Vec<String> {
     ["dark", "lamp"].map(str::to_owned).to_vec()
 }
@@ -325,7 +325,7 @@ const FRAME: FrameInfo = FrameInfo {
     format: PixelFormat::Gray8,
 };
 
-/// Touch sensor of the gel.
+/// Test camera behind the gel, whose frames show the depth of the tip.
 struct Gel(World);
 
 impl Sensor for Gel {

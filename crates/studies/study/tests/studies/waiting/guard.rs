@@ -1,4 +1,4 @@
-//! Tests of the guard threads during motions, and of their reactions.
+//! Tests of the guard threads while the robot moves, and of their reactions.
 
 use std::path::Path;
 use std::sync::Mutex;
@@ -14,7 +14,7 @@ use taceva_study::StudyError;
 use crate::waiting::record;
 use crate::waiting::world::World;
 
-/// Progress receiver that calls `look` with the world whenever the guard checks for cancellation, a hundred times a second. Returns the result of `look`.
+/// Progress receiver that calls its function with the emulated rig whenever a run checks for cancellation, a hundred times a second.
 struct Looking<'a, F>(&'a World, F);
 
 #[derive(Clone, Copy, Default)]
@@ -32,7 +32,7 @@ impl<F: Fn(&World) -> Wishes + Send + Sync> Progress for Looking<'_, F> {
     }
 }
 
-/// Records the scene while `look` observes it.
+/// Records the scene. `look` observes the emulated rig meanwhile and may request a stop.
 fn looked_on(
     world: &World,
     folder: &Path,
@@ -54,7 +54,7 @@ pub(crate) fn depth_mm(world: &World) -> f64 {
     state.tip(taceva_drivers::MonotonicClock.now_s())[2]
 }
 
-/// Asserts that every press of the scene occurs once, with both of its samples.
+/// Asserts that every sample of the scene was recorded once: three presses with two samples each.
 fn assert_whole(dataset: &Dataset) {
     let mut names: Vec<&String> = dataset.table().samples().iter().collect();
     assert_eq!(names.len(), 6);
@@ -120,15 +120,16 @@ fn a_wish_to_stop_ends_a_motion_and_the_tip_leaves_the_gel_and_what_was_recorded
     assert_whole(&dataset.expect("it goes on"));
 }
 
-/// Progress that cancels the run amid a motion, whose halt is then answered late, and keeps the remarks.
+/// Progress receiver that cancels the run during a motion, and records the remarks. The halt of this motion is answered late.
 struct Cancelling<'a> {
     world: &'a World,
     is_cancelled: AtomicBool,
     remarks: Mutex<Vec<String>>,
 }
 
-/// Delay of the answer to a halt, and least time from the begin of its motion: two turns of the guard.
+/// Delay of the answer to a halt.
 const ANSWER_DELAY: Duration = Duration::from_millis(300);
+/// Least time from the start of the motion to the cancellation, in s: two turns of the guard.
 const BEGUN_S: f64 = 0.012;
 
 impl Progress for Cancelling<'_> {

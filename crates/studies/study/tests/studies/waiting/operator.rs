@@ -1,4 +1,4 @@
-//! Tests of a study that needs an operator: rejected without one, and asked for with one.
+//! Tests of a study that needs an operator: without an operator the study is rejected, and with an operator the steps are requested.
 
 use std::sync::Mutex;
 
@@ -87,7 +87,7 @@ fn each_unit_is_asked_for_and_one_that_is_skipped_is_left_for_the_next_call() {
     assert_eq!(whole.table().samples().len(), 4);
 }
 
-/// Operator who answers every question, and records the warnings.
+/// Test operator who answers that every step is done, and records the warnings.
 struct Warned(Vec<String>);
 
 impl Operator for Warned {
@@ -111,7 +111,7 @@ fn a_remark_of_the_transducer_is_shown_once_for_all_units() {
     assert_eq!(warned[..], ["a low pass delays forces: switch it off"]);
 }
 
-/// Operator who records the tip height when a unit is requested, whether the tip is halted, and whether it moves before the answer.
+/// Test operator who records three facts when a unit is requested: the height of the tip, if it is halted, and if it stays still until the answer.
 struct Hands {
     world: World,
     seen: Vec<(f64, bool, bool)>,

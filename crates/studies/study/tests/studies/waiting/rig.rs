@@ -1,4 +1,4 @@
-//! Tests of rig setup: readings of its devices, the halt of its robot, and taught places.
+//! Tests of the setup of a rig: readings of devices, the halt of the robot, and taught places.
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -12,7 +12,7 @@ use crate::waiting::record_on;
 use crate::waiting::session::{self, UPRIGHT, rig_file, scene};
 use crate::waiting::world::World;
 
-/// Operator who allows or forbids the robot to move.
+/// Test operator who always gives one answer to the request to move the robot.
 struct Person(Answer);
 
 impl Operator for Person {
@@ -154,7 +154,7 @@ fn nothing_moves_in_a_check_if_the_tip_was_jogged_into_the_gel_before_somebody_l
     assert_eq!(check.halt_left_out.as_deref(), Some(why));
 }
 
-/// A rig file as written by `init rig`.
+/// Rig file with the values of a new file, which `init rig` writes.
 fn untaught() -> RigFile {
     let folder = tempfile::tempdir().expect("a folder");
     read_rig(&new_file(folder.path())).expect("a rig")
@@ -191,7 +191,7 @@ fn a_run_with_a_rig_file_that_was_never_taught_is_refused_with_its_line_before_a
     assert_eq!((state.readings, state.motions), (0, 0));
 }
 
-/// Operator who must not be asked; a question fails the test.
+/// Test operator for whom any question fails the test.
 struct Nobody;
 
 impl Operator for Nobody {
@@ -200,7 +200,7 @@ impl Operator for Nobody {
     }
 }
 
-/// Operator who jogs the robot to given places in its base frame.
+/// Test operator who jogs the robot to three given places in the base frame.
 struct Jogs {
     world: World,
     along: [[f64; 3]; 3],

@@ -1,4 +1,4 @@
-//! Tests of sessions on the rig of a rig file: permission, checks before presses, and the session table.
+//! Tests of sessions on the rig of a rig file: permission to move, checks before presses, and the table of sessions.
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -13,7 +13,7 @@ use taceva_study::{Existing, RunFolder, StudyError};
 use crate::waiting::world::World;
 use crate::waiting::{SCENE, record_on, with_workshop};
 
-/// Rig file of a world whose transducer has the axes `force_axes`.
+/// Path of a new rig file for the emulated rig, whose transducer has the axes `force_axes`.
 pub(crate) fn rig_file(folder: &Path, force_axes: &str) -> PathBuf {
     let path = folder.join("lab.toml");
     let text = format!(
@@ -23,14 +23,14 @@ pub(crate) fn rig_file(folder: &Path, force_axes: &str) -> PathBuf {
     path
 }
 
-/// Scene with a tip so slow in contact that a busy machine keeps up.
+/// Text of a scene whose tip is slow in contact, so that signals arrive in time on a busy machine.
 pub(crate) fn scene() -> String {
     SCENE.replacen("speed_mm_s = 5.0", "speed_mm_s = 1.5", 1)
 }
 
 pub(crate) const UPRIGHT: &str = "[\"x\", \"y\", \"z\"]";
 
-/// Operator who allows everything, and records the questions.
+/// Test operator who answers that every step is done, and records the questions.
 #[derive(Default)]
 pub(crate) struct Person(Vec<Question>);
 
@@ -47,7 +47,7 @@ fn rows(folder: &Path) -> Vec<String> {
     text.lines().skip(1).map(str::to_owned).collect()
 }
 
-/// Progress receiver that requests a stop when the tip is in the gel for the first time after the session began.
+/// Progress receiver that requests a stop when the tip is in the gel, once the session table exists.
 struct StopsInPress<'a>(&'a World, PathBuf, AtomicBool);
 
 impl Progress for StopsInPress<'_> {
@@ -165,7 +165,7 @@ fn a_robot_that_nobody_is_there_to_let_move_is_refused_before_anything_is_opened
     assert_eq!(world.state().readings, 0);
 }
 
-/// Progress receiver that requests a stop after this time, in s.
+/// Progress receiver that requests a stop from the given time of the clock on, in s.
 struct StopsAfter(f64);
 
 impl StopsAfter {
@@ -243,7 +243,7 @@ fn a_run_that_another_operator_resumes_is_refused_with_both_names_and_the_remedy
     }
 }
 
-/// Operator who never answers, and waits until the run is cancelled.
+/// Test operator who answers no question, and waits until the run is cancelled. Records the number of motions before the question.
 struct WalkedAway(World, u32);
 
 impl Operator for WalkedAway {
@@ -297,7 +297,7 @@ fn a_disk_that_takes_no_session_stops_it_before_its_first_press() {
     assert_eq!(dataset.expect("it goes on").table().samples().len(), 6);
 }
 
-/// Progress receiver that creates a folder at the path of the session table, when the folder of recordings exists.
+/// Progress receiver that creates a folder at the path of the session table, so that the table cannot be written.
 struct Blocks(PathBuf);
 
 impl Progress for Blocks {

@@ -16,7 +16,7 @@ use crate::waiting::record_on;
 use crate::waiting::session::{Person, UPRIGHT, rig_file, scene};
 use crate::waiting::world::World;
 
-/// Rig file of a world with an enabling switch, in line 12.
+/// Path of a new rig file for the emulated rig, with the enabling switch `enable` in line 12.
 fn rig_with(folder: &Path, enable: &str) -> PathBuf {
     let path = rig_file(folder, UPRIGHT);
     let mut text = std::fs::read_to_string(&path).expect("written");
@@ -53,16 +53,16 @@ fn assert_whole(dataset: &Dataset) {
     assert_eq!((names.len(), dataset.table().samples().len()), (6, 6));
 }
 
-/// Number of guard readings for which the switch is released.
+/// Number of checks of the guard during which the switch is released.
 const LOOKS: u32 = 40;
-/// Number of guard readings within which a motion in progress is halted.
+/// Number of checks of the guard within which a motion in progress must be halted.
 const HALTED_LOOKS: u32 = 20;
 
-/// Progress receiver that releases the switch when the tip is deep in the gel, and holds it again 40 readings later. The tip must not move in between.
+/// Progress receiver that releases the switch when the tip is deep in the gel, and holds it again after [`LOOKS`] checks. Counts moves meanwhile.
 struct LetsGo<'a> {
     world: &'a World,
     looks: AtomicU32,
-    /// Position of the tip when the halt was due, as the bits of a number.
+    /// Depth of the tip in mm when the halt was due, as the bits of an `f64`.
     stood: AtomicU64,
     moved_looks: AtomicU32,
 }
@@ -131,7 +131,7 @@ fn a_switch_that_nobody_holds_lets_nothing_move_and_the_run_ends_when_the_patien
     assert_whole(&recorded(&world, folder.path(), &SilentProgress).expect("it is held"));
 }
 
-/// Progress receiver that unplugs the switch when the tip is deep in the gel.
+/// Progress receiver that unplugs the enabling switch when the tip is deep in the gel.
 struct Unplugs<'a>(&'a World);
 
 impl Progress for Unplugs<'_> {
@@ -190,7 +190,7 @@ fn an_enable_that_is_no_switch_or_does_not_open_is_refused_with_its_line_before_
     }
 }
 
-/// Operator who allows the robot to move.
+/// Test operator who allows the robot to move.
 struct LetsMove;
 
 impl Operator for LetsMove {
@@ -199,7 +199,7 @@ impl Operator for LetsMove {
     }
 }
 
-/// Result of `rig check` with the switch held or not, with an operator.
+/// Result of `rig check` on the emulated rig, with an operator. The switch is held if `is_held` is true.
 fn checked(world: &World, is_held: bool) -> RigCheck {
     let folder = tempfile::tempdir().expect("a folder");
     let rig = read_rig(&rig_with(folder.path(), "wall/pedal")).expect("a rig");

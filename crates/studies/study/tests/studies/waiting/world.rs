@@ -1,4 +1,4 @@
-//! A robot, a gel and a force transducer that claim to be real and run in real time.
+//! Emulated robot, gel and force transducer. They count as real devices and run in real time.
 
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::Duration;
@@ -8,7 +8,7 @@ use taceva_drivers::MonotonicClock;
 
 /// Stiffness of the gel, in N/mm. The surface is at height 0.
 const STIFFNESS_N_MM: f64 = 0.5;
-/// Start position of the tip, in mm.
+/// Position of the tip at the start, in mm.
 const HOME_MM: [f64; 3] = [0.0, 0.0, -2.0];
 
 /// State of the emulated rig, shared by its devices and the test.
@@ -16,23 +16,26 @@ const HOME_MM: [f64; 3] = [0.0, 0.0, -2.0];
 pub(crate) struct World(Arc<Mutex<State>>);
 
 pub(crate) struct State {
-    /// Start and end of the current motion, with their times.
+    /// Start and end of the current motion, in mm.
     way: [[f64; 3]; 2],
+    /// Times of the start and end of the current motion, in s.
     span_s: [f64; 2],
     pub(crate) is_halted: bool,
     pub(crate) motions: u32,
-    /// Number of readings returned, and number of readings still to be withheld.
+    /// Number of force readings that were returned.
     pub(crate) readings: u64,
+    /// Number of force readings that are still to be withheld.
     pub(crate) withheld: u32,
     pub(crate) deepest_mm: f64,
-    /// Number and times of the halts of the robot.
+    /// Number of halts of the robot.
     pub(crate) halts: usize,
+    /// Times of the halts, in s.
     halted_s: Vec<f64>,
     /// Delay of the answer to the next halt.
     pub(crate) answer_delay: Duration,
-    /// Greatest x without an obstacle, in mm. Beyond it, an obstacle in the air presses with 1 N.
+    /// Greatest x without an obstacle, in mm. Beyond this x, an obstacle in the air presses the tip with 1 N.
     pub(crate) obstacle_x_mm: f64,
-    /// Time of the first contact with the obstacle, in s.
+    /// Time at which the tip first reached the obstacle, in s.
     pub(crate) struck_s: Option<f64>,
     /// True if the emergency stop is pressed.
     pub(crate) is_stopped: bool,
@@ -40,26 +43,28 @@ pub(crate) struct State {
     pub(crate) is_lost: bool,
     /// True if the robot reports that it is emulated.
     pub(crate) is_emulated: bool,
-    /// Number of motions and releases that were requested after the fault was reported.
+    /// Number of motions and releases that were requested after the robot had reported its emergency stop.
     pub(crate) defied: u32,
     told: bool,
-    /// True if the enabling switch is present and held.
+    /// True if a person holds the enabling switch.
     pub(crate) is_held: bool,
     pub(crate) is_unplugged: bool,
-    /// Error that the camera returns instead of a frame, and number of frames returned.
+    /// Error that the camera returns instead of a frame, if any.
     pub(crate) camera: Option<ErrorKind>,
+    /// Number of frames that the camera returned.
     pub(crate) pictures: u32,
     /// Last frame in contact, which a frozen camera repeats.
     pub(crate) touched: [u8; 4],
     pub(crate) is_frozen: bool,
-    /// Fault of a changer. For every change, also the requested item, the height of the tip, whether it was halted, and whether it stood still.
+    /// Fault of the changer.
     pub(crate) changer: Misfortune,
+    /// Changes of the changer: item, height of the tip in mm, if the robot was halted, and if the tip stayed still.
     pub(crate) changes: Vec<(String, f64, bool, bool)>,
-    /// Name of every light that was set, and the height of the tip.
+    /// Every light that was set: name of its light scene, and height of the tip in mm at this time.
     pub(crate) lights: Vec<(String, f64)>,
 }
 
-/// Fault of a changer.
+/// Faults that a test changer can have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Misfortune {
     None,
@@ -155,13 +160,13 @@ impl World {
 }
 
 impl State {
-    /// Time of the first halt after `time_s`.
+    /// Time of the first halt at or after `time_s`, in s.
     pub(crate) fn first_halt_after(&self, time_s: f64) -> f64 {
         let mut later = self.halted_s.iter().filter(|halted_s| **halted_s >= time_s);
         *later.next().expect("it was halted")
     }
 
-    /// True from `since_s` after the start of a motion until shortly before its end.
+    /// True if a motion is in progress: it began more than `since_s` before `now_s`, and does not end shortly.
     pub(crate) fn is_amid_motion(&self, now_s: f64, since_s: f64) -> bool {
         const LEFT_S: f64 = 0.005;
         let [begin_s, end_s] = self.span_s;
@@ -182,7 +187,7 @@ impl State {
         [0, 1, 2].map(|axis| from[axis] + (to[axis] - from[axis]) * part)
     }
 
-    /// Force on the tip, without noise, in N.
+    /// Force on the tip at `now_s`, without noise, in N.
     pub(crate) fn force_n(&mut self, now_s: f64) -> f64 {
         let [x, _, z] = self.tip(now_s);
         self.deepest_mm = self.deepest_mm.max(z);

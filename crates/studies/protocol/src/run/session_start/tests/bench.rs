@@ -19,10 +19,11 @@ use crate::run::{
     SharedSupervisor, Supervisor, Timekeeper, run_guarded,
 };
 
-/// Mounting axes of the transducer.
+/// True axes of the transducer, by its mounting.
 pub(super) const MOUNTED: [&str; 3] = ["x", "-y", "-z"];
-/// Surface height of the gel, in mm, and its stiffness against presses and pushes, in N/mm.
+/// Height of the gel surface, in mm.
 pub(super) const SURFACE_MM: f64 = 0.13;
+/// Stiffness of the gel against pushes along x and y, and against a press, in N/mm.
 const STIFFNESS_N_MM: [f64; 3] = [0.1, 0.1, 0.5];
 
 pub(super) fn rig_file(force_axes: [&str; 3]) -> RigFile {
@@ -33,7 +34,7 @@ pub(super) fn rig_file(force_axes: [&str; 3]) -> RigFile {
     RigFile::parse("lab.toml", &text).expect("a rig")
 }
 
-/// A gel of three stiffnesses with an arm, a transducer and a camera, in simulated time.
+/// Test bench in simulated time: an arm, a transducer, a camera, and a gel with one stiffness for each axis.
 #[derive(Clone)]
 pub(super) struct Bench(Arc<Mutex<State>>);
 
@@ -54,7 +55,7 @@ pub(super) struct State {
     pub(super) late_until_s: f64,
     pub(super) clings_n: f64,
     pub(super) sees: Sees,
-    /// Number of frames, modulo 256.
+    /// Number of captured frames, modulo 256.
     frames: u8,
     /// True if Fx and Fy are swapped after the first touch.
     pub(super) is_swapped: bool,
@@ -65,7 +66,7 @@ pub(super) struct State {
 pub(super) enum Sees {
     Touches,
     Nothing,
-    /// Frames show the touch forever afterwards.
+    /// Frames show the first touch forever after it.
     Afterwards,
 }
 
@@ -177,7 +178,7 @@ impl ForceTransducer for Transducer {
         Axes::FORCE
     }
 
-    /// A reading along the mounted axes, mapped by the rig file and passed to the supervisor, as by a guard thread.
+    /// Reads the force along the true axes, maps it by the axes of the rig file, and passes it to the supervisor.
     fn read(&mut self, _: Deadline) -> Result<(Wrench, Stamp), DriverError> {
         let mut state = self.0.state();
         state.readings += 1;
@@ -250,7 +251,7 @@ impl Sensor for Camera {
 }
 
 impl State {
-    /// Depth below the surface that a frame shows. The frame may show an earlier touch.
+    /// Depth that a frame shows, in mm. A frame may show an earlier touch.
     fn deepest(&mut self) -> f64 {
         if self.depth_mm() > 0.0 {
             self.clings_n = self.clings_n.max(f64::MIN_POSITIVE);
@@ -294,7 +295,7 @@ impl PressLog for Memory {
     }
 }
 
-/// Test operator who gives answers, and records the height of the tip and the number of its motions.
+/// Test operator with one fixed answer. Records for each question the height of the tip and the number of its motions.
 pub(super) struct Person {
     bench: Bench,
     answer: Answer,
@@ -325,7 +326,7 @@ pub(super) fn supervised(bench: &Bench, plan: &Plan) -> SharedSupervisor {
     supervisor
 }
 
-/// One touch of the surface, with a frame.
+/// Plan of one press: a touch of the surface, with a frame.
 pub(super) fn one_press() -> Plan {
     let mut plan = plan();
     plan.presses.truncate(1);
@@ -342,7 +343,7 @@ pub(super) fn begun(bench: &Bench, session: Session<'_>) -> (Result<(), RunError
     begun_with(bench, session, &one_press())
 }
 
-/// Like [`begun`], with the presses of `plan`.
+/// Runs a session like [`begun`], with the presses of `plan`.
 pub(super) fn begun_with(
     bench: &Bench,
     session: Session<'_>,

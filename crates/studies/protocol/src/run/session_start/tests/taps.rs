@@ -6,7 +6,7 @@ use crate::run::{
     Timekeeper as _, tap,
 };
 
-/// Test listener that counts taps. During one of them, the guard threads receive no readings for some time.
+/// Test listener that counts taps. During tap number `broken_off`, the guard threads receive no readings for some time.
 struct Counting {
     bench: Bench,
     broken_off: u32,
@@ -49,7 +49,7 @@ fn a_tap_that_silence_breaks_off_is_made_again_and_counts_once() {
     assert_eq!(counts, (Tapped::TAPS + 1, Tapped::TAPS));
 }
 
-/// Taps on the rig of a rig file, with `listener`.
+/// Taps on the test bench, with `listener` as the listener of every tap.
 fn tapped(bench: &Bench, listener: &mut dyn TapListener) -> Result<Tapped, RunError> {
     let mut plan = one_press();
     plan.presses[0].frames = false;

@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Limits that are dyadic fractions, so that sums and roots are exact. Saturation is out of reach.
+/// Limits that are dyadic fractions, so that sums and roots are exact. No test force reaches saturation.
 fn limits() -> RigLimits {
     RigLimits {
         depth_max: Millimetre(1.0),
@@ -16,7 +16,7 @@ fn limits() -> RigLimits {
     }
 }
 
-/// Limits of which only saturation can be reached.
+/// Limits so wide that test forces reach only saturation.
 fn wide() -> RigLimits {
     RigLimits {
         normal_max: Newton(64.0),
@@ -25,7 +25,7 @@ fn wide() -> RigLimits {
     }
 }
 
-/// Trip of one observation at `now_s`, with `limits`, in a `stage` supervised from 0 s on.
+/// Reason for which one observation at `now_s` halts the robot, under `limits` in a `stage` that began at 0 s; `None` without a halt.
 fn trips(
     limits: RigLimits,
     stage: MotionStage,
@@ -37,7 +37,7 @@ fn trips(
     supervisor.observe(observation, now_s).err()
 }
 
-/// Trip of a force in N.
+/// Reason for which `force`, in N, halts the robot; `None` without a halt.
 fn pushed(limits: RigLimits, stage: MotionStage, force: [f64; 3]) -> Option<Trip> {
     let wrench = Wrench {
         force: force.map(Newton),
@@ -46,7 +46,7 @@ fn pushed(limits: RigLimits, stage: MotionStage, force: [f64; 3]) -> Option<Trip
     trips(limits, stage, &Observation::Force(wrench, at(0.0)), 0.0)
 }
 
-/// Trip of a tip at `place` that was sent to `target`, both in mm.
+/// Reason for which a tip at `place`, which was sent to `target`, halts the robot; both in mm. `None` without a halt.
 fn placed(stage: MotionStage, place: [f64; 3], target: [f64; 3]) -> Option<Trip> {
     let observation = Observation::Pose {
         pose: pose_at(place),
@@ -64,7 +64,7 @@ fn pose_at([x, y, z]: [f64; 3]) -> Pose {
     }
 }
 
-/// Vectors of length `size` along one axis, in both directions.
+/// Vectors of length `size` along the axis `axis`, in the positive and the negative direction.
 fn along(axis: usize, size: f64) -> [[f64; 3]; 2] {
     [size, -size].map(|size| {
         let mut vector = [0.0; 3];
@@ -235,7 +235,7 @@ fn silence_counts_from_when_the_last_force_was_true_and_from_the_watch_before_on
     assert_eq!(supervisor.observe(&silence, 1.049), Ok(()));
 }
 
-/// Trip of the second of two normal forces in N, `span_s` apart; the first is at `start_s`.
+/// Reason for which the second of two normal forces in N halts the robot, if any. The first is at `start_s`, the second `span_s` later.
 fn stepped(start_s: f64, forces_n: [f64; 2], span_s: f64) -> Option<Trip> {
     let mut supervisor = Supervisor::new(wide(), Arc::new(Halts::default()));
     supervisor.watch(TOUCHING, start_s);

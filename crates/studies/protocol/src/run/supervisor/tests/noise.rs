@@ -1,9 +1,9 @@
-//! Tests of allowances for signals of real rigs: noise, sequence numbers, slow transducers, and a zero of the host.
+//! Tests that signals of real rigs are tolerated: noise, sequence numbers, slow transducers, and a zero of the host.
 
 use super::*;
 use crate::limits::FROZEN_READINGS;
 
-/// A supervisor in `stage` with the allowances of `signals`, since 10 s.
+/// Supervisor that tolerates `signals` and began `stage` at 10 s.
 fn allowing(signals: Signals, stage: MotionStage) -> Supervisor {
     let limits = RigLimits {
         depth_max: Millimetre(1.0),
@@ -88,7 +88,7 @@ fn a_slow_transducer_may_be_silent_for_longer() {
     assert!(matches!(stale, Err(Trip::StaleForce { .. })));
 }
 
-/// Number of the reading, of a hundred, at which the signal counts as frozen.
+/// Index of the reading, among a hundred, that halts the robot as frozen; `None` if none does.
 fn frozen(signals: Signals, reading: impl Fn(u32, Stamp) -> Observation) -> Option<u32> {
     let mut supervisor = allowing(signals, PRESS);
     (0..100_u32).find(|number| {

@@ -3,7 +3,7 @@
 use super::*;
 use crate::limits::FROZEN_READINGS;
 
-/// A tip that moves, with a force reading after each motion, every 0.02 s.
+/// Supervisor of a moving tip. A force is read after each motion, every 0.02 s.
 struct Watched {
     supervisor: Supervisor,
     now_s: f64,
@@ -32,7 +32,7 @@ impl Watched {
         tripped
     }
 
-    /// Reads `force_n` after each of `count` motions; none halts.
+    /// Reads `force_n` after each of `count` motions, and checks that no reading halts the robot.
     fn repeat(&mut self, count: u32, force_n: f64) {
         for _ in 0..count {
             self.moved();

@@ -3,19 +3,19 @@ use super::*;
 const CONTACT_MM: f64 = 0.1;
 const DEPTH_MM: f64 = 0.4;
 const LEAD_MM: f64 = 0.5;
-/// Time at which the tip starts, after 0.15 s of rest.
+/// Time at which the tip starts to move, in s.
 const SETS_OUT_S: f64 = 0.15;
 const LASTS_S: f64 = 0.6;
 
-/// A rig with delayed signals of a gel, and noise that depends on the number of the tap.
+/// Test rig that presses a gel. Force and frames are delayed, with noise that depends on the number of the tap.
 #[derive(Clone, Copy)]
 struct Rig {
     force_late_s: f64,
     frame_late_s: f64,
     frame_hz: f64,
-    /// Variation of the edge of a device between taps, in s.
+    /// Greatest shift of the signal edges of a tap, at random, in s.
     shaken_s: f64,
-    /// Part of the frame that the touch changes.
+    /// Change of brightness that the touch causes in a part of the frame, in steps of an 8-bit pixel.
     shade: f64,
 }
 
@@ -27,7 +27,7 @@ const RIG: Rig = Rig {
     shade: 20.0,
 };
 
-/// A pseudo-random number from −1 to 1 for each pair.
+/// A pseudo-random number from −1 to 1 for each pair of `tap` and `place`.
 fn noise(tap: u32, place: u32) -> f64 {
     let mixed = (tap * 7919 + place + 1)
         .wrapping_mul(2_654_435_761)

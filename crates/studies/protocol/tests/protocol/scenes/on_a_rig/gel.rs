@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// [`RIG`] with the facts of the gel in its [sensor], from line 14 on.
+/// Rig file [`RIG`] with facts of the gel added to the table `[sensor]`, from line 14 on.
 fn rig_with_gel() -> String {
     let gel = "opaque = true\nmarkers = false\nfootprint = { shape = \"rect\", half_x_mm = 8.0, half_y_mm = 10.0 }\n";
     RIG.replacen(
