@@ -1,4 +1,4 @@
-//! A table as an Arrow stream of one batch, in the capsule that readers request.
+//! Export of a table as an Arrow stream of one batch, in a Python capsule.
 
 mod structs;
 

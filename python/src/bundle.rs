@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 
 use crate::errors::value_error;
 
-/// Arguments of Python's result of a verification.
+/// Result of a verification, as Python receives it.
 #[derive(IntoPyObject)]
 pub(crate) struct Verified {
     document: String,

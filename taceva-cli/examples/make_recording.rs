@@ -102,7 +102,7 @@ impl Press {
         )
     }
 
-    /// Brightness lost in the dent at a position.
+    /// Loss of brightness by the dent at a position, in grey levels.
     fn shade(&self, x: f64, y: f64) -> f64 {
         let (from_x, from_y) = (x - self.x_mm, y - self.y_mm);
         28.0 * self.depth_mm * (-(from_x * from_x + from_y * from_y) / (2.0 * 1.1 * 1.1)).exp()

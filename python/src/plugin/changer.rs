@@ -1,4 +1,4 @@
-//! A changer in Python.
+//! Changer whose driver is a Python object.
 
 use std::sync::Arc;
 

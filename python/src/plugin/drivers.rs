@@ -1,4 +1,4 @@
-//! A Python class as a driver of devices.
+//! Driver whose devices are objects of a Python class.
 
 use pyo3::prelude::*;
 use taceva_core::{
@@ -15,7 +15,7 @@ use super::objects::{Object, keywords};
 use super::robot::PythonRobot;
 use super::sensor::PythonSensor;
 
-/// A class whose objects are devices.
+/// Driver whose devices are objects of a Python class.
 pub(super) struct PythonDriver {
     descriptor: Descriptor,
     class: Py<PyAny>,

@@ -42,7 +42,7 @@ impl PythonEstimator {
     }
 }
 
-/// Converts the exception to an error; the host adds the estimator and the operation.
+/// Converts an exception of the estimator to an error; the host adds the estimator and the operation.
 fn model_error(py: Python<'_>, error: &PyErr) -> ModelError {
     ModelError::new(kind(py, error), short_words(py, error))
 }
@@ -132,7 +132,7 @@ impl EstimatorFactory for PythonEstimator {
     }
 }
 
-/// A fitted object.
+/// Python object that `fit` or `load` of the class returned.
 struct Fitted {
     object: Py<PyAny>,
     channels: Channels,

@@ -19,7 +19,7 @@ const CAPTURE: &str = "capture a frame";
 pub(super) struct PythonSensor {
     object: Object,
     frame: FrameInfo,
-    /// Target array of frames, and its bytes; created for the first frame.
+    /// Numpy array that receives each frame, and access to its bytes; created for the first frame.
     into: Option<(Py<PyAny>, PyBuffer<u8>)>,
 }
 

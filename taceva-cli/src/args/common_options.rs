@@ -27,7 +27,7 @@ pub(crate) struct ModelArgs {
     pub(crate) settings: SettingArgs,
 }
 
-/// As [`ModelArgs`], if a fitted model can be given instead.
+/// Model to fit, and its settings, for a command that also accepts a fitted model.
 #[derive(Debug, Args)]
 pub(crate) struct OptionalModelArgs {
     #[arg(long = "model", value_name = "NAME", help = MODEL_HELP)]
@@ -50,7 +50,7 @@ pub(crate) struct SettingArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct ViewArgs {
-    /// The view of recordings whose samples have several pictures, such as left, or several side by side: left+right [default: the only
+    /// The view, such as left, of recordings whose samples have several pictures; left+right joins two views side by side [default: the only
     /// picture, or the view that a fitted model was fitted on]
     #[arg(id = "view", long = "view", value_name = "VIEW")]
     pub(crate) name: Option<String>,
@@ -113,8 +113,8 @@ pub(crate) struct ScoringArgs {
         default_value = "all"
     )]
     pub(crate) metrics: Vec<String>,
-    /// Treat each sample as independent of the others: intervals are then over samples instead of contact points;
-    /// `evaluate` refuses it where neighbouring samples resemble each other
+    /// Treat each sample as independent of the others: intervals are then over samples instead of contact points.
+    /// `evaluate` refuses this option if neighbouring samples resemble each other
     #[arg(long)]
     pub(crate) independent: bool,
     /// Facts about the sensor: footprint, greatest depth, opacity; metrics that need a missing fact are skipped
@@ -168,10 +168,10 @@ pub(crate) struct Output<F: ValueEnum + Default + Send + Sync + 'static = Format
 /// The format of a table of results.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
-    /// For people
+    /// Text for people
     #[default]
     Text,
-    /// For programs; the key `schema` names its form
+    /// JSON for programs, with the name of its schema in the key `schema`
     Json,
     /// One row for each score or finding
     Csv,
@@ -213,10 +213,10 @@ impl TableScores {
 /// The format of a list or a plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ListFormat {
-    /// For people
+    /// Text for people
     #[default]
     Text,
-    /// For programs; the key `schema` names its form
+    /// JSON for programs, with the name of its schema in the key `schema`
     Json,
 }
 
