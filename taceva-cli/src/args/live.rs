@@ -75,7 +75,7 @@ pub(crate) struct Capture {
     /// A fitted model, as `taceva fit` writes it; predicts as many frames as time permits, on a page and into OUT/predictions.csv
     #[arg(long, value_name = "FILE")]
     pub(crate) model: Option<PathBuf>,
-    /// The port of the page of --model on 127.0.0.1, 0 for any free port
+    /// The port of the page that --model opens on 127.0.0.1, 0 for any free port
     #[arg(long, value_name = "N", default_value_t = 0, requires = "model")]
     pub(crate) port: u16,
     /// Open no device: close a capture that was interrupted by a full disk, a power cut or a kill

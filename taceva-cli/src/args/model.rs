@@ -26,8 +26,8 @@ pub(crate) struct Fit {
     pub(crate) datasets: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) view: ViewArgs,
-    /// Fit a classifier to a task of the dataset in the place of channels: lda, linfa/logistic, smartcore/knn-classifier, cnn, resnet10, resnet18,
-    /// resnet34, or auto, which takes the best of the first three on the validation part. The split keeps clusters whole
+    /// Fit a classifier to a task of the dataset instead of a model of channels: lda, linfa/logistic, smartcore/knn-classifier, cnn, resnet10,
+    /// resnet18, resnet34, or auto. auto takes the best of the first three on the validation part. The split keeps clusters whole
     #[arg(long, value_name = "NAME")]
     pub(crate) task: Option<String>,
     #[command(flatten)]
@@ -68,9 +68,9 @@ pub(crate) struct Evaluate {
     /// A fitted model file
     #[arg(long, value_name = "MODEL")]
     pub(crate) with: Option<PathBuf>,
-    /// Fit a classifier to a task of the dataset in the place of channels: lda [default], linfa/logistic, smartcore/knn-classifier, cnn, resnet10,
-    /// resnet18, resnet34, or auto, which takes the best of the first three on the validation part. Poses and depth maps take any model of numbers.
-    /// The split keeps clusters whole [default: cv:5 by the cluster of the task]
+    /// Fit a classifier to a task of the dataset instead of a model of channels: lda [default], linfa/logistic, smartcore/knn-classifier, cnn,
+    /// resnet10, resnet18, resnet34, or auto, which takes the best of the first three on the validation part. For poses and depth maps, every model
+    /// of channels is accepted. The split keeps clusters whole [default: cv:5 by the cluster of the task]
     #[arg(
         long,
         value_name = "NAME",
@@ -154,8 +154,8 @@ pub(crate) struct Score {
     /// Count NaN and infinite cells as n_invalid instead of rejecting the file (with --task, count their rows and leave them out)
     #[arg(long)]
     pub(crate) allow_invalid: bool,
-    /// Score only shard K of N, a range of consecutive rows (with --task, of clusters by name); tables may have any length; `taceva merge` merges
-    /// the states of --state-out to the scores of all rows
+    /// Score only shard K of N: one of N ranges of consecutive rows, or with --task of clusters in the order of names. `taceva merge` merges the
+    /// states of --state-out to the scores of all rows
     #[arg(long, value_name = "K/N", conflicts_with_all = ["samples_out", "html", "figures"])]
     pub(crate) shard: Option<Shard>,
     #[command(flatten)]

@@ -63,7 +63,7 @@ pub(crate) struct SweepRun {
     /// Retry tasks that failed before
     #[arg(long)]
     pub(crate) retry_failed: bool,
-    /// Only tasks that match: a key of a task or its beginning, or terms such as "model = ridge and seed != 3"
+    /// Only matching tasks: those whose key begins with this text, or that meet terms such as "model = ridge and seed != 3"
     #[arg(long, value_name = "KEY|WHERE")]
     pub(crate) only: Option<String>,
     /// The engine that runs the tasks
@@ -87,7 +87,7 @@ pub(crate) enum SweepEngine {
 /// Operation on a sweep.
 #[derive(Debug, Subcommand)]
 pub(crate) enum SweepSubject {
-    /// Print means over tasks, grouped by any key that varies
+    /// Print means of a metric over tasks, grouped by any key that varies
     Show(SweepShow),
     /// Print the number of finished tasks, and the jobs of the scheduler
     Status(SweepFolderArgs),
@@ -118,7 +118,7 @@ pub(crate) struct SweepShow {
         default_value = "model"
     )]
     pub(crate) by: Vec<String>,
-    /// The metric
+    /// The metric whose means are printed
     #[arg(long, value_name = "METRIC", default_value = "mae")]
     pub(crate) metric: String,
     #[command(flatten)]

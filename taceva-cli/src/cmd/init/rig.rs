@@ -11,7 +11,7 @@ use taceva_protocol::RigFile;
 use super::{Context, Interview, Usage, finish, target};
 use crate::args::InitTarget;
 
-/// Answer in place of the driver of a robot.
+/// Answer for a rig without a robot, given instead of a driver.
 const BY_HAND: &str = "none";
 
 pub(super) fn write(
