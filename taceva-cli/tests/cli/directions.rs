@@ -7,7 +7,7 @@ use serde_json::Value;
 use taceva_metrics::Better;
 use taceva_report::{BenchMachine, BenchRecording, ChannelError, Layout, ModelBench, ModelRow};
 
-/// One sensor, pressed a few times, with gratings and light.
+/// Scene of one sensor with gratings and light, and a few presses.
 const SCENE: &str = r#"scene_version = 1
 name = "small"
 seed = 7
@@ -44,14 +44,14 @@ fn lines(text: &str, whence: &str) -> usize {
     found
 }
 
-/// The same for a Markdown table, whose names are escaped.
+/// Checks signs like [`lines`] in a Markdown table, whose names are escaped.
 fn markdown(text: &str, whence: &str) -> usize {
     let plain = text.replace(['\\', '|'], " ");
     let plain: String = plain.replace(" _", "_");
     lines(&plain, whence)
 }
 
-/// The same for a LaTeX table: each row with a name has a sign, unless it is descriptive.
+/// Checks signs in a LaTeX table: each row with a name has a sign, unless the metric is descriptive. Returns the number of signs.
 fn latex(text: &str, whence: &str) -> usize {
     // If metrics are columns, their heads have the signs.
     let heads = text.lines().take_while(|line| !line.contains("midrule"));

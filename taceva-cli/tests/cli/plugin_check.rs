@@ -1,4 +1,4 @@
-//! `taceva plugin check` on a plugin in C: a correct one passes, a faulty one fails the check of its fault.
+//! `taceva plugin check` on a plugin in C: a correct plugin passes, and a faulty plugin fails the check for its fault.
 
 use std::fs;
 use std::path::Path;
@@ -70,7 +70,7 @@ fn checks_are_reported_as_a_runner_of_tests_does() {
     assert_eq!(bench.run(nothing).code, 2);
 }
 
-/// A bench with the plugin of real devices, whose stamps have the `macros`, and `first.toml` with its transducer.
+/// Test folder with the plugin built with `macros`, whose devices claim to be real, and the rig file `first.toml` with its transducer.
 fn with_real_plugin(macros: &[&str]) -> Option<Bench> {
     let real = ["EYE_SOURCE=\"real\"", "WRIST_SOURCE=\"real\""];
     let bench = with_plugin(&[&real[..], macros].concat())?;

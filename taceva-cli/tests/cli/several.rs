@@ -7,7 +7,7 @@ use serde_json::Value;
 
 const FIVE: [&str; 5] = ["monday", "tuesday", "wednesday", "thursday", "friday"];
 
-/// Five recordings of one sensor, each with ten points of the same names.
+/// Test folder with five recordings of one sensor, each with the same names of ten points, and their names.
 fn week() -> (Bench, String) {
     let bench = Bench::new();
     for (name, noise) in FIVE.into_iter().zip(0..) {

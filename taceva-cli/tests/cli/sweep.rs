@@ -28,7 +28,7 @@ fn week() -> Bench {
     bench
 }
 
-/// Writes the file of a sweep of eight tasks, with the replacements `changed`.
+/// Writes the file of a sweep of eight tasks, after the replacements `changed` (old text, new text).
 fn small(bench: &Bench, changed: &[(&str, &str)]) {
     let mut text = SWEEP
         .replace("\"1-3\"", "[1]")

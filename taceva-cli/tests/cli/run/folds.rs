@@ -5,7 +5,7 @@ use serde_json::Value;
 use super::{SMALL, reports, with_small};
 use crate::support::Bench;
 
-/// The small scene with `folds` folds of its 16 points.
+/// The scene [`SMALL`] with `folds` folds of its 16 points.
 fn folded(folds: usize) -> String {
     SMALL.replace(
         "name = \"ridge\"",
