@@ -14,7 +14,7 @@ use crate::support::Bench;
 use crate::support::emulated::{Emulated, Running};
 use crate::waiting::page::Page;
 
-/// Frames of noise whose first number is the force.
+/// Writes a recording of noise, in which the first pixel of a frame determines the force.
 fn write_recording(bench: &Bench, name: &str, info: FrameInfo, rows: u32) {
     let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("gel"));
     let channels = Channels::new([Channel::FZ, Channel::PX]).expect("two");
@@ -37,7 +37,7 @@ fn write_recording(bench: &Bench, name: &str, info: FrameInfo, rows: u32) {
     recorder.close().expect("closed");
 }
 
-/// Fits a model on `rows` frames like those of a sensor, into NAME.taceva.
+/// Fits a model on `rows` frames of the format `info`, and writes it to NAME.taceva.
 fn fit_for(bench: &Bench, name: &str, info: FrameInfo, rows: u32) {
     write_recording(bench, name, info, rows);
     bench.ok(&format!(
