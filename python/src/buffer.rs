@@ -61,7 +61,7 @@ pub(crate) enum Number {
 }
 
 impl Number {
-    /// Format character of the `struct` module, and size in bytes.
+    /// Format character of Python's `struct` module, and size of one number in bytes.
     const fn form(self) -> (&'static CStr, isize) {
         match self {
             Number::U8 => (c"B", 1),
@@ -112,7 +112,7 @@ impl Buffer {
         })
     }
 
-    /// An array of rows of `width` numbers.
+    /// Converts `numbers` to an array with rows of `width` numbers.
     pub(crate) fn of_rows(numbers: &[f64], width: usize) -> PyResult<Buffer> {
         let bytes = numbers
             .iter()

@@ -1,4 +1,4 @@
-//! Verification of bundles by the command of the program.
+//! Verification of bundles by `taceva bundle verify`.
 
 use std::ffi::OsString;
 

@@ -1,4 +1,4 @@
-//! Table of a recording in Arrow columns.
+//! Table of a recording as Arrow columns.
 
 use taceva_core::shown;
 use taceva_dataset::{Dataset, Table, TaskColumn, TaskKind, TaskLabel};

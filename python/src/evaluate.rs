@@ -128,7 +128,7 @@ pub(crate) fn evaluate_named(
     results::sealed_with_samples(&evaluated.map_err(|error| study_error(&error))?.report)
 }
 
-/// Part called `name`.
+/// Part of a dataset called `name`, such as `test`.
 pub(crate) fn part_of(name: &str) -> PyResult<DataPart> {
     let all = [
         DataPart::Train,

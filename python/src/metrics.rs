@@ -221,7 +221,7 @@ impl Sums {
             .map_err(value_error)
     }
 
-    /// Serialized states.
+    /// Sums as bytes, for `merge_bytes`.
     fn states_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let bytes = serde_json::to_vec(&self.states()?).map_err(value_error)?;
         Ok(PyBytes::new(py, &bytes))
@@ -298,7 +298,7 @@ fn paired(key: String) -> PairedBy {
     }
 }
 
-/// Channels by name and unit.
+/// Converts pairs of a channel name and its unit to channels.
 pub(crate) fn channels_of(channels: &[(String, String)]) -> PyResult<Channels> {
     let channels = channels.iter().map(|(name, unit)| channel(name, unit));
     Channels::new(channels.collect::<PyResult<Vec<_>>>()?).map_err(value_error)

@@ -171,7 +171,7 @@ pub(crate) fn figure_pdf(texts: Vec<String>, name: &str) -> PyResult<Vec<u8>> {
     Ok(figure.pdf())
 }
 
-/// Sentence for every output about samples of these origins; `None` if all samples were measured.
+/// Sentence that every output repeats if some samples of these origins were not measured; `None` if all were measured.
 #[pyfunction]
 pub(crate) fn not_measured(sources: Vec<String>) -> Option<String> {
     taceva_results::not_measured(sources.iter().map(String::as_str))

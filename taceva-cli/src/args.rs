@@ -193,7 +193,7 @@ pub(crate) enum Command {
 
 #[derive(Debug, Args)]
 pub(crate) struct Completions {
-    /// The shell
+    /// The shell that runs the script
     pub(crate) shell: clap_complete::Shell,
 }
 

@@ -1,7 +1,7 @@
 //! The commands of `taceva`: how well does a vision-based tactile sensor measure?
 //!
-//! This crate parses arguments and renders results. Other crates do the work: `taceva-study`, `taceva-evaluate` and `taceva-import`. The program calls
-//! [`main_if_child`] and then [`main_with`]. A program in another language with these commands calls only [`main_with`].
+//! This crate parses arguments and renders results. Other crates do the work: `taceva-study`, `taceva-evaluate` and `taceva-import`. The program
+//! calls [`main_if_child`] and then [`main_with`]. A program in another language with these commands calls only [`main_with`].
 
 mod amount;
 mod args;

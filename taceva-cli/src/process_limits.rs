@@ -1,7 +1,7 @@
 //! Checks before any work: a closed standard output, and the limit of file sizes.
 
-/// True if standard output was closed when the program started (`>&-`). Rust replaces a closed output by `/dev/null` before `main`, so that results would be
-/// lost without a message.
+/// True if standard output was closed when the program started (`>&-`). Rust replaces a closed output by `/dev/null` before `main`, so that results
+/// would be lost without a message.
 #[cfg(unix)]
 pub(crate) fn standard_output_is_closed() -> bool {
     before_main::WAS_CLOSED.load(std::sync::atomic::Ordering::Relaxed)

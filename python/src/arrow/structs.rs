@@ -173,7 +173,7 @@ pub(super) struct Batch {
     pub(super) metadata: Vec<u8>,
 }
 
-/// Data of a [`Stream`].
+/// Data that a [`Stream`] owns.
 struct StreamMemory {
     batch: Batch,
     is_given: bool,

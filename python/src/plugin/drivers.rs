@@ -22,7 +22,7 @@ pub(super) struct PythonDriver {
 }
 
 impl PythonDriver {
-    /// Driver of `class`; `None` for a kind that is newer than this version.
+    /// Driver of the Python class `class`; `None` for a kind of device that is newer than this version.
     pub(super) fn made(descriptor: Descriptor, class: Py<PyAny>) -> Option<Made> {
         let kind = descriptor.kind();
         let driver = PythonDriver { descriptor, class };

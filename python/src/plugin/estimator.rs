@@ -15,7 +15,7 @@ use crate::arrays::Table;
 use crate::buffer::{Buffer, Number};
 use crate::errors::value_error;
 
-/// A class with `fit`, `predict`, `save` and `load`.
+/// Estimator that is a Python class with `fit`, `predict`, `save` and `load`.
 pub(super) struct PythonEstimator {
     info: EstimatorInfo,
     class: Py<PyAny>,

@@ -10,7 +10,7 @@ use taceva_core::{DriverError, DriverKey, ErrorKind, Fault};
 
 use super::waiting::Interrupted;
 
-/// Failed operation, in words that follow "cannot". During opening, an invalid value is the caller's argument.
+/// Failed operation, in words that follow "cannot". While a device is opened, an invalid value is an error in the caller's argument.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Doing {
     Opening(&'static str),
@@ -185,7 +185,7 @@ fn unread_line(py: Python<'_>, error: &PyErr) -> Option<(String, String)> {
     Some((message, line_of(&file, line)))
 }
 
-/// A line of a file, for messages.
+/// File and line as text, for messages.
 pub(super) fn line_of(file: &str, line: u32) -> String {
     format!("{file}, line {line}")
 }

@@ -14,7 +14,7 @@ use crate::errors::value_error;
 
 const READ: &str = "read the force";
 
-/// An object with `start`, `read(deadline)`, `stop` and, if declared, `zero(deadline)`.
+/// Force transducer that is a Python object with `start`, `read(deadline)`, `stop` and, if declared, `zero(deadline)`.
 pub(super) struct PythonForce {
     object: Object,
     axes: Axes,

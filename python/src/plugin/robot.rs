@@ -17,7 +17,7 @@ use crate::errors::value_error;
 
 const MOVE: &str = "move";
 
-/// An object with `pose(deadline)`, `move_to(target, speed, deadline)`, `halt()` and `clear_halt(deadline)`; `move_guarded` and
+/// Robot that is a Python object with `pose(deadline)`, `move_to(target, speed, deadline)`, `halt()` and `clear_halt(deadline)`; `move_guarded` and
 /// `move_expiring` are optional.
 pub(super) struct PythonRobot {
     object: Object,

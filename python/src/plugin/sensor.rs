@@ -15,7 +15,7 @@ use crate::errors::value_error;
 
 const CAPTURE: &str = "capture a frame";
 
-/// An object with `start`, `capture(into, deadline)` and `stop`.
+/// Sensor that is a Python object with `start`, `capture(into, deadline)` and `stop`.
 pub(super) struct PythonSensor {
     object: Object,
     frame: FrameInfo,

@@ -27,7 +27,7 @@ pub(crate) enum BenchSubject {
 /// to show differences. The time to read the columns is the lower limit. TACEVA_ISA=avx512|avx2|portable forces the path of every other command.
 #[derive(Debug, Args)]
 pub(crate) struct BenchKernels {
-    /// Rows of each of the six channels
+    /// The number of rows of each of the six channels
     #[arg(long, value_name = "N", default_value_t = 1_000_000)]
     pub(crate) rows: usize,
     /// Number of times each kernel is timed

@@ -38,7 +38,7 @@ A file to start from, with every measured figure:
 #[derive(Debug, Args)]
 #[command(after_help = SOURCES_HELP)]
 pub(crate) struct Budget {
-    /// The sources: `[[source]]` with a name and an uncertainty, or with `from` and a measured figure
+    /// The file of sources: each `[[source]]` has a name, and an uncertainty or `from` with the name of a measured figure
     #[arg(value_name = "BUDGET.toml", required_unless_present = "template")]
     pub(crate) sources: Option<PathBuf>,
     /// The result of one sensor, for sources with `from`: JSON of evaluate or score, or a report of a run; the file of its samples is beside it

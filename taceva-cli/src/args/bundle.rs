@@ -53,7 +53,8 @@ pub(crate) struct BundleMake {
     /// An evaluated recording, to add its dataset.toml, and its pictures by --with frames; not needed for a run; may be repeated
     #[arg(long = "dataset", value_name = "DATASET")]
     pub(crate) datasets: Vec<PathBuf>,
-    /// A text file to add to the bundle: scene.toml, rig.toml, map.toml, limits.toml or tasks.toml. The scene of a run is added without it; may be repeated
+    /// A text file to add to the bundle: scene.toml, rig.toml, map.toml, limits.toml or tasks.toml. The scene of a run is added without it; may be
+    /// repeated
     #[arg(long = "text", value_name = "FILE")]
     pub(crate) texts: Vec<PathBuf>,
     /// A model file of the result, as fit writes it; implies --with model; may be repeated

@@ -53,7 +53,7 @@ pub(crate) struct CachePrune {
     /// Remove entries, those unused for the longest time first, until the cache holds at most this size: 2GiB, 500MB, 0
     #[arg(long, value_name = "SIZE", value_parser = size)]
     pub(crate) keep: Option<u64>,
-    /// Only these kinds, separated by commas [default: all]
+    /// Remove only entries of these kinds, separated by commas [default: all]
     #[arg(long, value_enum, value_name = "KINDS", value_delimiter = ',')]
     pub(crate) kind: Vec<StageArg>,
     #[command(flatten)]
@@ -62,7 +62,7 @@ pub(crate) struct CachePrune {
 
 #[derive(Debug, Args)]
 pub(crate) struct CacheFolder {
-    /// The cache [default: taceva in the user's cache folder]
+    /// The folder of the cache [default: taceva in the user's cache folder]
     #[arg(id = "cache", long, value_name = "DIR")]
     pub(crate) path: Option<PathBuf>,
 }

@@ -42,7 +42,7 @@ pub(crate) struct CatalogueList {
 pub(crate) struct CatalogueShow {
     /// The name of the sensor or an alias, such as "GelSight Mini"; `taceva catalogue list` prints all names
     pub(crate) name: String,
-    /// The folder of a catalogue, whose numbers follow the published numbers; each number states the level of its verification
+    /// The folder of a catalogue, whose numbers are printed after the published numbers; each number states the level of its verification
     #[arg(long, value_name = "DIR")]
     pub(crate) catalogue: Option<PathBuf>,
     #[command(flatten)]

@@ -58,12 +58,12 @@ pub(crate) struct ViewArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct SplitArgs {
-    /// The division of samples: random, chronological, by-point, by-block, declared or by-column:NAME[=train:1,2;val:3;test:4]. Write shares of
-    /// training, validation and test behind a space: 'chronological 80/0/20' tests the last fifth of the samples in order of time. all trains on
-    /// every sample, for a final model. cv:K and loo predict each sample once. Groups for them follow a space: 'cv:5 by-point', or random, by-block
-    /// or by-column:NAME. Several recordings also accept by-recording[=train:A,B;test:C]. leave-one-recording-out fits a model without each
-    /// recording in turn [default: by-point if points repeat, else by groups or blocks of time if neighbours resemble each other, else random.
-    /// With 5 to 999 groups `evaluate` uses cv:5 by these groups]
+    /// The division of samples: random, chronological, by-point, by-block, declared or by-column:NAME[=train:1,2;val:3;test:4]. Shares of training,
+    /// validation and test follow a space: 'chronological 80/0/20' tests the last fifth of the samples in order of time. all trains on every sample,
+    /// for a final model. cv:K and loo predict each sample once. The kind of their groups follows a space: 'cv:5 by-point', or random, by-block or
+    /// by-column:NAME. Several recordings also accept by-recording[=train:A,B;test:C]. leave-one-recording-out fits a model without each recording
+    /// in turn [default: by-point if points repeat, else by groups or blocks of time if neighbours resemble each other, else random. With 5 to 999
+    /// groups `evaluate` uses cv:5 by these groups]
     #[arg(long, value_name = "SPLIT")]
     pub(crate) split: Option<String>,
     #[command(flatten)]
@@ -79,7 +79,7 @@ pub(crate) struct SeedArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct SplitOutArgs {
-    /// Write the ids of the training, validation and test samples as JSON, and of the test samples of each fold
+    /// Write the ids of the training, validation and test samples as JSON; with folds, also the ids of the test samples of each fold
     #[arg(id = "split_out", long = "split-out", value_name = "SPLIT.json")]
     pub(crate) path: Option<PathBuf>,
 }

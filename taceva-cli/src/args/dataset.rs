@@ -66,23 +66,23 @@ pub(crate) struct Import {
 /// `h5py.File("FOLDER/recording.h5")`, for csv any program.
 #[derive(Debug, Args)]
 pub(crate) struct Export {
-    /// The dataset
+    /// The dataset to export
     pub(crate) dataset: PathBuf,
     /// The new folder to write, created completely or not at all
     #[arg(long, value_name = "FOLDER")]
     pub(crate) out: PathBuf,
-    /// The format
+    /// The format to write
     #[arg(long, value_name = "FORM", value_enum, default_value_t = Form::Huggingface)]
     pub(crate) format: Form,
 }
 
 /// Show the content of a dataset and its devices, with certificates and latencies
 ///
-/// Prints one fact per line: content, origin, days of recording, instruments of the labels, their certificates, settings and latencies of the devices,
-/// sessions, warnings. No frame is decoded.
+/// Prints one fact per line: content, origin, days of recording, instruments of the labels, their certificates, settings and latencies of the
+/// devices, sessions, warnings. No frame is decoded.
 #[derive(Debug, Args)]
 pub(crate) struct Show {
-    /// The dataset
+    /// The dataset to show
     pub(crate) dataset: PathBuf,
 }
 

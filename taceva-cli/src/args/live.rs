@@ -51,10 +51,10 @@ pub(crate) struct Capture {
     pub(crate) path: PathBuf,
     #[command(flatten)]
     pub(crate) live: LiveArgs,
-    /// Duration by the stamps of the frames: 60s, 5min [default: until Ctrl-C]
+    /// Duration of the capture by the timestamps of its frames: 60s, 5min [default: until Ctrl-C]
     #[arg(long = "for", value_name = "TIME", value_parser = duration)]
     pub(crate) lasts: Option<Duration>,
-    /// Number of frames
+    /// Number of frames after which the capture ends
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) frames: Option<u64>,
     /// Name of the sensor in reports [default: the name of its driver]

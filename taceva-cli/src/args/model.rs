@@ -13,9 +13,9 @@ use super::{
 
 /// Fit a model on the training part of a dataset and write it to a file
 ///
-/// The file holds the model, its split and the digest of the dataset. `taceva evaluate DATASET --with MODEL` scores the samples that the model has not
-/// seen, and `taceva predict` predicts. With --split all or cv:5 the model is fitted on every sample, so only another recording can test it. cv:5 also
-/// stores the scores of its folds.
+/// The file holds the model, its split and the digest of the dataset. `taceva evaluate DATASET --with MODEL` scores the samples that the model has
+/// not seen, and `taceva predict` predicts. With --split all or cv:5 the model is fitted on every sample, so only another recording can test it.
+/// cv:5 also stores the scores of its folds.
 ///
 /// During the training of a network, a checkpoint is written to the file MODEL.checkpoint every 30 s, and when the training is
 /// stopped. The same command resumes from the checkpoint, writes the same bytes as an uninterrupted training, and removes the checkpoint.
@@ -53,10 +53,10 @@ pub(crate) struct Fit {
 
 /// Fit a model, or use a fitted one, and score it on unseen samples
 ///
-/// Without --split, 5 to 999 groups of samples, such as contact points, are scored in five folds (cv:5). Each sample is predicted once, by a model that
-/// has not seen its group. Otherwise the model is fitted on the training part, its settings are chosen on the validation part, and the test part is
-/// scored. The default model is `fast`, a small network, or `ridge` for signals of taxels. With --with, a fitted model is used: on its own dataset
-/// only the unseen part is scored.
+/// Without --split, 5 to 999 groups of samples, such as contact points, are scored in five folds (cv:5). Each sample is predicted once, by a model
+/// that has not seen its group. Otherwise the model is fitted on the training part, its settings are chosen on the validation part, and the test
+/// part is scored. The default model is `fast`, a small network, or `ridge` for signals of taxels. With --with, a fitted model is used: on its own
+/// dataset only the unseen part is scored.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("which").args(["with", "name"]))]
 pub(crate) struct Evaluate {

@@ -33,7 +33,8 @@ pub(crate) struct Compare {
     pub(crate) margins: Vec<String>,
     #[command(flatten)]
     pub(crate) seed: SeedArgs,
-    /// Print every score and every pair with both p values and its interval, not only the main scores and pairs. Markdown, CSV and JSON have every pair in any case
+    /// Print every score and every pair with both p values and its interval, not only the main scores and pairs. Markdown, CSV and JSON have every
+    /// pair in any case
     #[arg(long)]
     pub(crate) all: bool,
     #[command(flatten)]

@@ -16,7 +16,7 @@ use super::{ExplainArgs, Output, PageArgs, SeedArgs, ViewArgs};
 #[derive(Debug, Args)]
 #[command(after_help = faults_help())]
 pub(crate) struct Stress {
-    /// The recording
+    /// The recording whose samples are predicted
     #[arg(value_name = "DATASET")]
     pub(crate) dataset: PathBuf,
     /// A fitted model file

@@ -38,8 +38,9 @@ The same command continues a stopped sweep. `taceva sweep show FILE --by model,s
 
 /// Evaluate many combinations of recordings, models, settings, splits and seeds, here or on a cluster
 ///
-/// Every combination of recordings, models, settings, splits and seeds is a task; its result file is named by the digest of all its inputs.
-/// The table, its digest and the page depend neither on the number of workers nor on where tasks ran. The exit code is 1 if a task failed or a limit was missed.
+/// Every combination of recordings, models, settings, splits and seeds is a task; its result file is named by the digest of all its inputs. The
+/// table, its digest and the page depend neither on the number of workers nor on where tasks ran. The exit code is 1 if a task failed or a limit was
+/// missed.
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true, after_help = FILE_HELP)]
 pub(crate) struct Sweep {

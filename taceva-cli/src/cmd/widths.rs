@@ -85,7 +85,7 @@ pub(super) fn note_reached(
     }
 }
 
-/// Number of points behind the score of `wanted` in words; empty for samples without contact points.
+/// Number of tested contact points of the score `wanted`, in words; empty for samples without contact points.
 fn points_of(report: &EvaluationReport, wanted: &WantedWidth) -> String {
     let scored = ScoredWidth::of(report, wanted).ok();
     let points = scored.map(|scored| scored.tested().points);

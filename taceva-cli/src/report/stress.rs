@@ -268,7 +268,7 @@ fn spread(fault: &FaultReport, channels: &[&str]) -> String {
     }
 }
 
-/// Common reason for unknown shares of the error that new untouched inputs remove; `None` if a share is known or the reasons differ.
+/// Reason why no channel states the share of the error that a new untouched input removes; `None` if a channel does or the reasons differ.
 fn common_reason(fault: &FaultReport) -> Option<Undefined> {
     let reason = fault.recovers.values().next()?.reason?;
     let mut shares = fault.recovers.values();

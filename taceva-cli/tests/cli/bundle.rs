@@ -51,7 +51,7 @@ fn score(bench: &Bench, prediction: &str, name: &str) {
     ));
 }
 
-/// Verification of the bundle `words`, with the expected exit code.
+/// Verifies the bundle with the arguments `words`, and expects the exit code `code`. Returns the JSON.
 fn verified(bench: &Bench, words: &str, code: i32) -> Value {
     let ran = bench.run(&format!("bundle verify {words} --format json -q"));
     assert_eq!(ran.code, code, "{words}\n{}{}", ran.out, ran.err);

@@ -7,7 +7,7 @@ use std::process::Command;
 use crate::support::Bench;
 use taceva_needs::{Need, skip};
 
-/// A bench with the plugin in `plugins/fixture`, built with `macros`; `None`, with a message, without a C compiler.
+/// Test folder with the plugin in `plugins/fixture`, built with `macros`. `None`, with a message, without a C compiler.
 fn with_plugin(macros: &[&str]) -> Option<Bench> {
     let bench = Bench::new();
     let plugins = Path::new(env!("CARGO_MANIFEST_DIR")).join("../plugins");

@@ -161,7 +161,7 @@ fn colored(is_labelled: bool, _: u32) -> Vec<u32> {
     }
 }
 
-/// A recording of pictures whose labelled half differs as `pixel` states.
+/// Records pictures in which one half is labelled. `pixel` returns the values of a pixel in either half.
 fn record_halves(path: &Path, info: FrameInfo, pixel: fn(bool, u32) -> Vec<u32>) {
     let sensor = SensorFacts::new("drawn").with_serial("1").with_gel("1");
     let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, sensor);

@@ -246,7 +246,7 @@ fn a_model_of_several_is_scored_on_their_test_part_on_others_whole_and_on_some_o
     );
 }
 
-/// A copy of the dataset `name`, byte for byte.
+/// Copies the dataset `name` to `to`, byte for byte.
 fn copy(bench: &Bench, name: &str, to: &str) {
     let copied = std::process::Command::new("cp")
         .arg("-r")

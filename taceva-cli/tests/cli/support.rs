@@ -256,7 +256,7 @@ impl Bench {
         recorder.close().expect("closed");
     }
 
-    /// A lab's folder `lab` with `labels.csv`, `pictures/` and `map.toml`.
+    /// Writes a lab's folder `lab` with `labels.csv`, `pictures/` and `map.toml`.
     pub(crate) fn lab(&self) {
         let recording = self.record("drawn", 32);
         let dataset = Dataset::open(&recording).expect("a dataset");
@@ -280,7 +280,7 @@ impl Bench {
     }
 }
 
-/// Facts and channels of a drawn recording.
+/// Facts and channels of a synthetic recording.
 fn spec() -> RecordingSpec {
     let sensor = SensorFacts::new("drawn")
         .with_serial("1")

@@ -21,7 +21,7 @@ use crate::support::Bench;
 use crate::support::sweeps::SWEEP;
 use store::WEEK;
 
-/// A folder with two recordings and the file of a sweep over both.
+/// Test folder with two recordings, and the file of a sweep over both.
 fn week() -> Bench {
     let bench = Bench::new();
     WEEK.put(&bench.path("."));

@@ -11,7 +11,7 @@ use crate::support::Bench;
 /// Id of a user who has no other processes. Limits do not apply to root.
 const NOBODY: u32 = 65_534;
 
-/// The program at a path from which every user may start it.
+/// Copies the program to a path from which every user may start it.
 fn program(bench: &Bench) -> PathBuf {
     let path = bench.path("taceva");
     fs::copy(env!("CARGO_BIN_EXE_taceva"), &path).expect("copied");

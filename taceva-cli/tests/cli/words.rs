@@ -7,7 +7,7 @@ use crate::support::{Bench, MAP, leftovers};
 use taceva_core::is_obeyed;
 use taceva_needs::{Need, skip};
 
-/// Clears the screen, reverses the direction of text, and hides.
+/// Name with characters that clear the screen, reverse the direction of text, or are invisible.
 const HOSTILE: &str = "gel\u{1b}[2J\u{9b}3m\u{202e}\u{2066}\u{200b}\u{61c}7";
 /// The text of [`HOSTILE`] in TOML, where controls must be escaped.
 const HOSTILE_TOML: &str = "gel\\u001b[2J\\u009b3m\u{202e}\u{2066}\u{200b}\u{61c}7";

@@ -264,7 +264,7 @@ impl Found {
         Ok(noted(figure, &score))
     }
 
-    /// Standard deviation of the mean residual between light scenes.
+    /// Standard deviation between light scenes of the mean residual in each scene.
     fn light(&self, channel: &Channel) -> Result<Figure, String> {
         let samples = self.report.samples.as_ref();
         if samples.is_some_and(|samples| !samples.has("protocol")) {

@@ -307,7 +307,7 @@ fn of_study(
     }
 }
 
-/// Faults of the pictures of a scene that plugins make.
+/// Picture faults of a scene that estimators of plugins make.
 ///
 /// # Errors
 /// For a plugin that was not found, and for the name of another fault.
@@ -337,8 +337,8 @@ pub(in crate::cmd) fn plugin_faults(
     faults.collect()
 }
 
-/// Presses the test part of study `number` again on gels with `fault`, into folders next to the errors of the study. A severity that the gel cannot
-/// have is skipped.
+/// Presses the test part of study `number` again on gels with `fault`, into folders next to the result of its fault test. A severity that the gel
+/// cannot have is skipped.
 fn press_worn(
     run: &TestedRun<'_>,
     number: usize,

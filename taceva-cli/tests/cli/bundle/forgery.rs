@@ -1,4 +1,4 @@
-//! Edits of a bundle that hide themselves: digests and seals are made again.
+//! Edits of a bundle that are hidden by new digests and seals.
 
 use std::fs;
 use std::path::Path;

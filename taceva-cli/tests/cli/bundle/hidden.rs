@@ -1,4 +1,4 @@
-//! Bundles that leave something out, or name more than they hold.
+//! Bundles that omit data, or state data that their files do not have.
 
 use std::fs;
 

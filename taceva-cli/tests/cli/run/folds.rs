@@ -13,7 +13,7 @@ fn folded(folds: usize) -> String {
     )
 }
 
-/// The report of the only study of a run of `scene`.
+/// Runs `scene`, and returns the report of its only study.
 fn report(bench: &Bench, scene: &str) -> Value {
     bench.write("small.toml", scene);
     bench.ok("run small.toml --out r -q");

@@ -8,7 +8,7 @@ use super::reduced::REDUCED;
 use super::{SMALL, dataset_of, reports, with_small};
 use crate::support::Bench;
 
-/// A started run that is ended from outside.
+/// Process of a run, which the test kills or stops.
 struct Started {
     child: Child,
     journal: PathBuf,

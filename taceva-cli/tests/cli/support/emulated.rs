@@ -14,7 +14,7 @@ use crate::support::{Bench, Ran};
 
 const PATIENCE: Deadline = Deadline::after(Duration::from_secs(20));
 
-/// An arm, a transducer and a camera over one gel.
+/// Emulated arm, force transducer and camera over one gel.
 pub(crate) struct Emulated {
     pub(crate) bench: WallBench,
     arm: xarm::Emulator,
@@ -111,7 +111,7 @@ impl Emulated {
     }
 }
 
-/// The running program.
+/// Running process of `taceva`, with its messages.
 pub(crate) struct Running {
     child: Child,
     said: Arc<Mutex<String>>,

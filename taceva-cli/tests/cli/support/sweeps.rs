@@ -1,4 +1,4 @@
-//! A sweep over two drawn recordings, and its final bytes.
+//! Sweep over two synthetic recordings, and the bytes of its tables and page.
 
 use std::fs;
 
@@ -41,7 +41,7 @@ metrics = ["accuracy"]
 [vary]
 size = ["8x8"]
 "#;
-/// A folder with two recordings and the file of a sweep over both, which ends with `more`.
+/// Test folder with two recordings, and the file of a sweep over both, which ends with `more`.
 pub(crate) fn week(more: &str) -> Bench {
     let bench = Bench::new();
     for (name, noise) in [("monday", 0), ("tuesday", 1)] {

@@ -56,7 +56,7 @@ fn a_full_disk_on_one_node_fails_its_tasks_in_words_and_another_node_carries_the
     assert_eq!(bytes(&bench, "which.sweep"), small_bytes());
 }
 
-/// The program on a node whose clock and file times are an hour ahead.
+/// Command `taceva WORDS` on a node whose clock and file times are an hour ahead.
 fn an_hour_ahead(bench: &Bench, words: &str) -> Command {
     let here = bench.command(words);
     let mut ahead = Command::new("faketime");

@@ -45,7 +45,7 @@ fn fit_for(bench: &Bench, name: &str, info: FrameInfo, rows: u32) {
     ));
 }
 
-/// The size and format of the frames of a sensor.
+/// Captures two frames of a sensor, and returns their size and format.
 fn info_of(bench: &Bench, sensor: &str, name: &str) -> FrameInfo {
     bench.ok(&format!("capture {name} --sensor {sensor} --frames 2 -q"));
     let dataset = Dataset::open(&bench.path(name)).expect("whole");
