@@ -11,7 +11,7 @@ use super::{ExplainArgs, Output, PageArgs, SeedArgs, ViewArgs};
 ///
 /// Faults are applied to the pictures or signals of the recording, and the model predicts them without being fitted again. Severities 1 to 5
 /// change the untouched picture by 0.03, 0.1, 0.3, 1 and 3 times the change by contact, a mean over pictures. If the model reads an untouched
-/// picture, a fault that is equal in all pictures has a second score, for an untouched picture with this fault. A fitted model is scored on samples
+/// picture, a fault that is equal in all pictures has a second score, for an untouched picture with the fault. A fitted model is scored on samples
 /// that it has not seen.
 #[derive(Debug, Args)]
 #[command(after_help = faults_help())]

@@ -87,7 +87,7 @@ fn of_run(file: &Path, count: usize) -> anyhow::Result<Vec<Option<FaultResult>>>
     Ok(faults)
 }
 
-/// Results of tests with faults, one for each of the `count` studies of the result `path`, which is a file or the folder of a run.
+/// Results of tests with faults for the `count` studies of the result `path`, which is a file or the folder of a run.
 pub(in crate::cmd) fn faults_of(
     path: &Path,
     count: usize,

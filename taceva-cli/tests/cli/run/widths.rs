@@ -17,7 +17,7 @@ fn wanting(points: &str, width: &str) -> String {
     )
 }
 
-/// Test folder with a scene of 16 points that wants a width of 20 %, the results of its run `r`, and the messages of that run.
+/// Test folder with a scene of 16 points that wants a width of 20 %, then the results and the messages of its run `r`.
 fn with_pilot() -> (Bench, Value, String) {
     let bench = Bench::new();
     bench.write("small.toml", &wanting("points = 16", "20 %"));
