@@ -69,8 +69,8 @@ pub(crate) struct Evaluate {
     #[arg(long, value_name = "MODEL")]
     pub(crate) with: Option<PathBuf>,
     /// Fit a classifier to a task of the dataset instead of a model of channels: lda [default], linfa/logistic, smartcore/knn-classifier, cnn,
-    /// resnet10, resnet18, resnet34, or auto, which takes the best of the first three on the validation part. For poses and depth maps, every model
-    /// of channels is accepted. The split keeps clusters whole [default: cv:5 by the cluster of the task]
+    /// resnet10, resnet18, resnet34, or auto, which takes the best of the first three on the validation part. For poses and depth maps, fit any model
+    /// that predicts numbers. The split keeps clusters whole [default: cv:5 by the cluster of the task]
     #[arg(
         long,
         value_name = "NAME",
