@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 }
 
-/// Numbers from 0 to 1, each a function of its position.
+/// Column of `rows` pseudo-random numbers from 0 to 1; each depends only on the seed and its row.
 fn drawn(seed: u64, rows: u64) -> Column {
     let bits = |row| u32::try_from(mix((seed << 40) | row) >> 32).unwrap_or(0);
     let number = |row| f64::from(bits(row)) / 4_294_967_296.0;

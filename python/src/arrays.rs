@@ -62,7 +62,7 @@ impl Table {
         }
     }
 
-    /// Appends some rows to `columns`, channel by channel; returns true if all numbers are finite.
+    /// Appends the numbers of `rows` to `columns`, channel by channel; returns true if all numbers are finite.
     pub(crate) fn read(
         &self,
         py: Python<'_>,
@@ -169,7 +169,7 @@ impl Points {
         }
     }
 
-    /// Labels of some rows. A whole number becomes decimal text, as in a table.
+    /// Contact points of `rows`. A whole number becomes decimal text, as in a table.
     pub(crate) fn read(&self, py: Python<'_>, rows: Range<usize>) -> Labels {
         match self {
             Points::Numbers(buffer) => Labels::of_numbers(values(py, buffer, rows)),

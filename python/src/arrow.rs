@@ -1,4 +1,4 @@
-//! A table as an Arrow stream of one batch, in the capsule that readers request.
+//! Export of a table as an Arrow stream of one batch, in a Python capsule.
 
 mod structs;
 
@@ -56,7 +56,7 @@ impl ArrowColumn {
         })
     }
 
-    /// Format string of its type in the Arrow C interface.
+    /// Format string of the column's type in the Arrow C interface.
     const fn format(&self) -> &'static CStr {
         match self.cells {
             // 64-bit offsets, so that a column has no size limit.
@@ -66,7 +66,7 @@ impl ArrowColumn {
         }
     }
 
-    /// Buffers after the validity bitmap: the values; for texts, the offsets and then the values.
+    /// Arrow buffers of the column after the validity bitmap: the values; for texts, the offsets and then the values.
     fn values(&self) -> Vec<Vec<u64>> {
         match &self.cells {
             Cells::Texts(cells) => {

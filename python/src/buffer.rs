@@ -1,4 +1,4 @@
-//! Buffer protocol in both directions. Only this file and `arrow/structs.rs` use `unsafe`.
+//! Arrays from and to Python by the buffer protocol. Only this file and `arrow/structs.rs` use `unsafe`.
 
 use std::ffi::{CStr, c_int, c_void};
 use std::ops::Range;
@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 
 use crate::errors::value_error;
 
-/// Copies some numbers of an array in C order.
+/// Copies the numbers at the positions `wanted` of an array in C order.
 ///
 /// # Panics
 /// If the range exceeds `array`.
@@ -25,7 +25,7 @@ pub(crate) fn values<T: Element>(
     values
 }
 
-/// Replaces the content of `values` by some numbers of an array in C order.
+/// Replaces the content of `values` by the numbers in a range of an array in C order.
 ///
 /// # Panics
 /// If the range exceeds `array`.
@@ -61,7 +61,7 @@ pub(crate) enum Number {
 }
 
 impl Number {
-    /// Format character of the `struct` module, and size in bytes.
+    /// Format character of Python's `struct` module, and size of one number in bytes.
     const fn form(self) -> (&'static CStr, isize) {
         match self {
             Number::U8 => (c"B", 1),
@@ -112,7 +112,7 @@ impl Buffer {
         })
     }
 
-    /// An array of rows of `width` numbers.
+    /// Converts `numbers` to an array with rows of `width` numbers.
     pub(crate) fn of_rows(numbers: &[f64], width: usize) -> PyResult<Buffer> {
         let bytes = numbers
             .iter()
@@ -129,7 +129,7 @@ impl Buffer {
 )]
 #[pymethods]
 impl Buffer {
-    /// Fills `view`.
+    /// Fills `view` with the address, shape and number format of this array.
     ///
     /// # Safety
     /// CPython calls it with a view that is null or writable.

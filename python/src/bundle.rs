@@ -1,4 +1,4 @@
-//! Verification of bundles by the command of the program.
+//! Verification of bundles by `taceva bundle verify`.
 
 use std::ffi::OsString;
 
@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 
 use crate::errors::value_error;
 
-/// Arguments of Python's result of a verification.
+/// Result of a verification, as Python receives it.
 #[derive(IntoPyObject)]
 pub(crate) struct Verified {
     document: String,

@@ -1,4 +1,4 @@
-//! Table of a recording in Arrow columns.
+//! Table of a recording as Arrow columns.
 
 use taceva_core::shown;
 use taceva_dataset::{Dataset, Table, TaskColumn, TaskKind, TaskLabel};
@@ -59,7 +59,8 @@ pub(crate) fn stream<'py>(py: Python<'py>, dataset: &Dataset) -> PyResult<Bound<
     arrow::stream(py, table.rows(), columns, &metadata)
 }
 
-/// Labels of a task: names of classes, the number at `part` of each pose or place, or the place and the digest of each depth map.
+/// Column of a task's labels. For poses and places, it has the numbers with index `part`. For depth maps, it has the
+/// places of the maps if `part` is 0, else their digests. For other tasks, it has the names of classes.
 fn of_task(own: &TaskColumn, part: usize, rows: usize) -> Cells {
     match own.task().kind {
         TaskKind::Pose | TaskKind::Place => {

@@ -216,7 +216,7 @@ impl Recording {
         Buffer::new(bytes, Number::F32, &[rows.len(), width])
     }
 
-    /// Rows of each part, `(train, validation, test)`, divided as by `evaluate`, and the name of the split.
+    /// Rows of each part, `(train, validation, test)`, as `evaluate` divides the recording, and the name of the split.
     #[pyo3(signature = (split, seed))]
     fn split(&self, split: Option<&str>, seed: u64) -> PyResult<([Vec<usize>; 3], String)> {
         use taceva_evaluate::DataPart::{Test, Train, Validation};

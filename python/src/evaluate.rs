@@ -14,7 +14,7 @@ use crate::errors::{ModelError, study_error, value_error};
 use crate::inventory::host;
 use crate::{results, worker};
 
-/// Results file of two tables, with the content that `taceva score` writes, and the table of their samples if they are kept.
+/// Scores a table of predictions against a table of truth. Returns the results file of `taceva score`, and the table of samples if they are kept.
 #[pyfunction]
 #[pyo3(signature = (truth, prediction, metrics, sensor, key, allow_invalid, jobs, bar = None))]
 #[expect(clippy::too_many_arguments, reason = "the Python side names them")]
@@ -128,7 +128,7 @@ pub(crate) fn evaluate_named(
     results::sealed_with_samples(&evaluated.map_err(|error| study_error(&error))?.report)
 }
 
-/// Part called `name`.
+/// Part of a dataset called `name`, such as `test`.
 pub(crate) fn part_of(name: &str) -> PyResult<DataPart> {
     let all = [
         DataPart::Train,

@@ -64,7 +64,7 @@ mod _taceva {
     #[pymodule_export]
     use super::tasks::{compare_tasks, merge_tasks, task_scores};
 
-    /// Sets the location attributes of an error to `None`, for unknown locations.
+    /// Gives the class `DatasetError` the attributes `path`, `row` and `line`, which are `None` for unknown locations.
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         let error = module.py().get_type::<super::errors::DatasetError>();

@@ -17,7 +17,7 @@ use crate::errors::value_error;
 /// Number of rows in a block, whose columns stay in the L1 and L2 caches. Each block looks up the names of points, so smaller blocks cost more.
 const BLOCK_ROWS: usize = 4096;
 
-/// Unit of one of the six channels; `None` for any other channel.
+/// Unit of `channel` if it is one of the six contact channels; `None` for any other channel.
 #[pyfunction]
 pub(crate) fn unit_of(channel: &str) -> Option<&'static str> {
     let known = Channel::SIX
@@ -45,7 +45,7 @@ const FIELDS: [Field; 7] = [
     Field::Intensity,
 ];
 
-/// A field of some rows.
+/// Values of one field, one for each row.
 enum Said {
     Texts(Points),
     Numbers(Table),
@@ -111,8 +111,8 @@ impl Sums {
 
 #[pymethods]
 impl Sums {
-    /// Sums of `channels` with their units, for the given metrics and groups, and for the skill, which verdicts require. If `is_independent`, every
-    /// sample is its own cluster. Every row has `fields`. Angles repeat after `periods`, in degrees.
+    /// Creates empty sums of `channels`, each with its unit, for the given metrics and groups. The skill, which verdicts require, is always included.
+    /// `fields` are fields of every row. `periods` gives the period of angles in degrees. With `is_independent`, each sample is its own cluster.
     #[new]
     fn new(
         channels: Vec<(String, String)>,
@@ -144,8 +144,8 @@ impl Sums {
         })
     }
 
-    /// Adds rows. Unless `allows_invalid`, a number that is not finite makes the call return false without adding a row. With `apart`, such a call
-    /// may add some rows, and the caller discards the sums.
+    /// Adds rows. Without `allows_invalid`, it returns false if a number is not finite. No row is then added, except with `apart`: the sums may then
+    /// contain some rows, and the caller must discard the sums.
     #[expect(clippy::too_many_arguments, reason = "what one row carries")]
     fn update(
         &self,
@@ -221,7 +221,7 @@ impl Sums {
             .map_err(value_error)
     }
 
-    /// Serialized states.
+    /// Sums as bytes, for `merge_bytes`.
     fn states_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let bytes = serde_json::to_vec(&self.states()?).map_err(value_error)?;
         Ok(PyBytes::new(py, &bytes))
@@ -240,8 +240,8 @@ impl Sums {
         *self.evaluator() = Evaluator::new(&self.plan);
     }
 
-    /// Scores of all added rows, as the text of a results file. `paired_by` names the keys that paired rows of named columns; `""` means by order.
-    /// `name` names the scored sensor or model, and `notes` are further notes.
+    /// Scores of all added rows, as the text of a results file. `paired_by` has the key by which the caller paired each pair of tables; `""` means by
+    /// order. `name` is the scored sensor or model, and `notes` are further notes.
     fn compute(
         &self,
         py: Python<'_>,
@@ -285,7 +285,7 @@ fn left_out(scores: &[Score]) -> Option<String> {
     })
 }
 
-/// Pairing of rows, from its Python form.
+/// Pairing of rows that Python states: by an order, by an index, or by the key column of this name.
 fn paired(key: String) -> PairedBy {
     match key.as_str() {
         "" => PairedBy::Order,
@@ -298,7 +298,7 @@ fn paired(key: String) -> PairedBy {
     }
 }
 
-/// Channels by name and unit.
+/// Converts pairs of a channel name and its unit to channels.
 pub(crate) fn channels_of(channels: &[(String, String)]) -> PyResult<Channels> {
     let channels = channels.iter().map(|(name, unit)| channel(name, unit));
     Channels::new(channels.collect::<PyResult<Vec<_>>>()?).map_err(value_error)

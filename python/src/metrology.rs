@@ -9,7 +9,7 @@ use taceva_import::ImportError;
 use crate::errors::{import_error, study_error, value_error};
 use crate::results::rendered;
 
-/// Arguments of Python's results of metrology.
+/// Result of a gauge study, a curve or a budget, as Python receives it.
 #[derive(IntoPyObject)]
 pub(crate) struct Computed {
     documents: Vec<String>,

@@ -14,7 +14,7 @@ use crate::dataset::Recording;
 use crate::errors::{ModelError, study_error, value_error};
 use crate::record::frame_info;
 
-/// Alarm for the Python side: change, picture, strength, remedy and text.
+/// Alarm as Python receives it: change, number of the picture, strength, remedy and text.
 type AlarmParts = (&'static str, u64, f64, &'static str, String);
 
 /// A monitor that threads of Python share.
@@ -83,12 +83,12 @@ impl PictureMonitor {
         parts(py.detach(|| self.locked().touched(&frame)))
     }
 
-    /// Number of untouched pictures until changes are found.
+    /// Number of untouched pictures that the monitor still needs before it can find changes.
     fn missing(&self) -> usize {
         self.locked().missing()
     }
 
-    /// Least stimulus of brightness, pattern, detail and single lines that is found; `None` while pictures are missing.
+    /// Smallest detectable change of brightness, pattern, detail and single lines; `None` while untouched pictures are missing.
     fn smallest(&self) -> Option<[f64; 4]> {
         self.locked().smallest()
     }

@@ -64,7 +64,7 @@ fn imported(
     Ok(Offered::of(plugin.bind(py))?.linked(folder.clone()))
 }
 
-/// Manifest of `plugin` from the module `name`: `text`, updated with the data of the plugin.
+/// Manifest of `plugin`, imported from the module `name`: the manifest `text` with the entries that the code of the plugin determines.
 #[pyfunction]
 #[pyo3(signature = (plugin, name, text, license = None))]
 pub(crate) fn plugin_manifest(
@@ -97,7 +97,7 @@ pub(crate) fn plugin_log(level: &str, message: &str) -> PyResult<()> {
     Ok(())
 }
 
-/// Uses this interpreter, with its installed package `taceva`, for the processes of plugins.
+/// Starts the processes of plugins in this Python interpreter, with its installed package `taceva`.
 ///
 /// # Errors
 /// `ValueError` in the process of a plugin, which could otherwise start itself without end.

@@ -1,4 +1,4 @@
-//! Models held in Python: rows to learn from, and scores of their predictions by the rules of the program.
+//! Models that a Python program fits and calls itself: their training rows, and scores of their predictions by the rules of the program.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -14,10 +14,10 @@ use crate::errors::{study_error, value_error};
 use crate::evaluate::part_of;
 use crate::{results, worker};
 
-/// Rows of a recording for a model held in Python.
+/// Rows of a recording that train and test a model of a Python program.
 #[pyclass(module = "taceva._taceva", frozen)]
 pub(crate) struct Given {
-    /// Removed by the only call of `score`.
+    /// Training and test rows; `None` after the only call of `score`.
     rows: Mutex<Option<GivenRows>>,
 }
 
@@ -114,7 +114,7 @@ impl Given {
     }
 }
 
-/// Features of `rows` by `settings`, `[rows, values]`, with their specification, and height, width and depth of each.
+/// Features of `rows`, `[rows, values]`, computed with `settings`; then their specification, and the height, width and depth of one row's features.
 #[pyfunction]
 #[pyo3(signature = (recording, settings, rows, jobs, bar = None))]
 pub(crate) fn features(

@@ -47,7 +47,7 @@ pub(crate) struct ReadResult {
     scores: Vec<ReadScore>,
 }
 
-/// Arguments of Python's `Score`.
+/// One score, as Python receives it.
 #[derive(IntoPyObject)]
 pub(crate) struct ReadScore {
     metric: String,
@@ -118,7 +118,7 @@ pub(crate) fn score_table(texts: Vec<String>, form: &str) -> PyResult<String> {
     }
 }
 
-/// Sentence on channels of `scores` that `shown` replaces by their planes; `None` if there are none.
+/// Sentence that names the channels of `scores` without a row in `shown`, which has scores of planes instead; `None` if there are none.
 fn left_out(scores: &ScoreTable, shown: &ScoreTable) -> Option<String> {
     let mut channels: Vec<&str> = Vec::new();
     for row in scores.rows.iter().filter(|row| row.is_headline) {
@@ -171,14 +171,14 @@ pub(crate) fn figure_pdf(texts: Vec<String>, name: &str) -> PyResult<Vec<u8>> {
     Ok(figure.pdf())
 }
 
-/// Sentence for every output about samples of these origins; `None` if all samples were measured.
+/// Sentence that every output repeats if some samples of these origins were not measured; `None` if all were measured.
 #[pyfunction]
 pub(crate) fn not_measured(sources: Vec<String>) -> Option<String> {
     taceva_results::not_measured(sources.iter().map(String::as_str))
 }
 
-/// Comparison of two or more results with the tables of their samples, `None` if unknown. `form` may also be `json`, and `main` for the LaTeX
-/// table of the main scores, in addition to the forms of `score_table`.
+/// Compares two or more results. `samples` has the table of each result's samples, or `None`. `form` is a form of `score_table`, `json`, or `main`
+/// for the LaTeX table of the main scores.
 #[pyfunction]
 pub(crate) fn comparison(
     texts: Vec<String>,
@@ -220,7 +220,7 @@ pub(crate) fn comparison(
     }
 }
 
-/// Note on studies without samples; `None` if all studies have samples.
+/// Note on the results whose samples are not known; `None` if the samples of all are known.
 fn without_samples(names: &[String], studies: &[Study]) -> Option<String> {
     let absent = names.iter().zip(studies);
     let absent = absent.filter(|(_, study)| study.samples.is_none());

@@ -15,10 +15,10 @@ use taceva_report::{Table, TaskComparison, TaskResult, task_numbers, task_table}
 use crate::errors::{study_error, value_error};
 use crate::results::rendered;
 
-/// Width of the answers of a comparison, in characters.
+/// Width of lines in the text of a comparison, in characters.
 const WIDTH: usize = 100;
 
-/// Arguments of Python's results of tasks.
+/// Scores of tasks, as Python receives them.
 #[derive(IntoPyObject)]
 pub(crate) struct TaskDocuments {
     documents: Vec<String>,
@@ -32,7 +32,7 @@ pub(crate) struct TaskDocuments {
 /// A task as the Python side states it.
 #[derive(Deserialize)]
 struct AskedTask {
-    /// Task in the notation of the command line; `None` if the fields below state it.
+    /// Task in the notation of the command line; `None` if the other fields state the task.
     spec: Option<String>,
     #[serde(default)]
     name: String,
@@ -76,7 +76,7 @@ impl AskedTask {
     }
 }
 
-/// Scores of the tasks of two tables. `tasks` is a JSON list of tasks, `source` the origin of the samples.
+/// Scores the tasks of a table of predictions against a table of truth. `tasks` is a JSON list, `source` the origin of the samples.
 #[pyfunction]
 #[pyo3(signature = (truth, prediction, tasks, cluster, key, source))]
 pub(crate) fn task_scores(

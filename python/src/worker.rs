@@ -14,14 +14,14 @@ use crate::errors::value_error;
 /// Interval of signal checks and bar updates; Ctrl-C takes at most twice as long.
 const PERIOD: Duration = Duration::from_millis(50);
 
-/// Event of a stage.
+/// Progress event of a stage: it begins, advances by steps, or ends.
 enum Event {
     Begun(String, Option<u64>),
     Advanced(u64),
     Ended,
 }
 
-/// Worker side: records events, and checks for cancellation.
+/// Progress of the work, written by its thread: records events, and checks for cancellation.
 struct Noted<'a> {
     events: Mutex<Vec<Event>>,
     is_stopped: &'a AtomicBool,

@@ -28,7 +28,7 @@ struct Press {
 }
 
 impl Press {
-    /// Response of a taxel at a position: 1 at the centre of the press, decreasing with distance.
+    /// Response of a taxel at a position: exp(-d² / `reach_mm2`) for the distance d from the centre of the press.
     fn near(&self, [x_mm, y_mm]: [f64; 2], reach_mm2: f64) -> f64 {
         let (away_x, away_y) = (self.x_mm - x_mm, self.y_mm - y_mm);
         (-(away_x * away_x + away_y * away_y) / reach_mm2).exp()
@@ -54,7 +54,7 @@ impl Noise {
         f64::from(high) / 8_388_608.0 - 1.0
     }
 
-    /// All presses on a surface with the half widths `half_mm`, mm.
+    /// All presses, at random points with |x| and |y| up to the two values of `half_mm`, mm.
     fn presses(&mut self, half_mm: [f64; 2]) -> Vec<Press> {
         let mut presses = Vec::new();
         for point in 0..POINTS {
@@ -78,7 +78,7 @@ impl Noise {
 
 const LABELS: &str = "point,x_mm,y_mm,depth_mm,shear_N,force_N";
 
-/// Table of five magnetometers with three axes each, in µT, below magnets that a press moves.
+/// Table of a magnetic skin: five magnetometers with three axes each, in µT. A press moves the magnets above them.
 pub(crate) fn magnetic() -> String {
     let mut noise = Noise(1);
     let mut text = LABELS.to_owned();

@@ -55,7 +55,7 @@ impl Drawing {
     }
 }
 
-/// One press in closed form.
+/// Press: position, depth and shear of the tip, mm.
 struct Press {
     x_mm: f64,
     y_mm: f64,
@@ -65,7 +65,8 @@ struct Press {
 }
 
 impl Press {
-    /// Press of a point and step. Points are on a sunflower spiral. Depth and shear depend only on the arguments, so each press can be computed alone.
+    /// Press of a point and step. Points are on a sunflower spiral. Depth and shear depend only on the arguments, so each press can be computed
+    /// alone.
     fn planned(drawing: Drawing, point: u32, step: u32) -> Press {
         let golden_angle = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
         let radius = RADIUS_MM * (f64::from(point) + 0.5).sqrt() / f64::from(drawing.points).sqrt();
@@ -81,7 +82,8 @@ impl Press {
         }
     }
 
-    /// Forces by Hertz for a sphere: F ∝ δ^1.5. Shear stiffness is proportional to the contact radius, ∝ δ^0.5.
+    /// Forces in N on a sphere by Hertz. The normal force is proportional to depth^1.5, and the shear stiffness to the contact radius, so to
+    /// depth^0.5.
     fn forces_newton(&self) -> [f64; 3] {
         let stiffness = 1.2 * self.depth_mm.sqrt();
         [
@@ -102,7 +104,7 @@ impl Press {
         )
     }
 
-    /// Brightness lost in the dent at a position.
+    /// Loss of brightness by the dent at a position, in grey levels.
     fn shade(&self, x: f64, y: f64) -> f64 {
         let (from_x, from_y) = (x - self.x_mm, y - self.y_mm);
         28.0 * self.depth_mm * (-(from_x * from_x + from_y * from_y) / (2.0 * 1.1 * 1.1)).exp()

@@ -121,7 +121,7 @@ impl Cli {
     }
 }
 
-/// Options of every command.
+/// Options that every command accepts.
 #[derive(Debug, Args)]
 pub(crate) struct Everywhere {
     /// Worker threads; results do not depend on their number [default: all cores]
@@ -164,7 +164,7 @@ pub(crate) enum Command {
     Budget(Budget),
     /// Published numbers of sensors, each with its source, and numbers of bundles in a folder
     Catalogue(CatalogueArgs),
-    /// List the results kept for later runs, or remove old ones
+    /// List cached results, which later runs reuse, or remove old ones
     Cache(CacheCommand),
     /// Benchmarks: run time against error, with the Pareto front marked
     Bench(Bench),
@@ -193,7 +193,7 @@ pub(crate) enum Command {
 
 #[derive(Debug, Args)]
 pub(crate) struct Completions {
-    /// The shell
+    /// The shell that runs the script
     pub(crate) shell: clap_complete::Shell,
 }
 

@@ -31,7 +31,8 @@ pub struct BundleVerification {
 /// Verifies the bundle of `arguments`, which begin with the name of the program. Writes nothing and handles no signal.
 ///
 /// # Errors
-/// Errors of the command, and an error for arguments of another command. [`one_line`](crate::one_line) formats them. A damaged bundle is not an error.
+/// Errors of the command, and an error for arguments of another command. [`one_line`](crate::one_line) formats them. A damaged bundle is not an
+/// error.
 pub fn verify_bundle<W: Into<OsString> + Clone>(
     arguments: impl IntoIterator<Item = W>,
 ) -> anyhow::Result<BundleVerification> {

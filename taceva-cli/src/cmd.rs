@@ -1,4 +1,4 @@
-//! Implementation of the commands, one file each: resolves the arguments, calls a library, and renders the result.
+//! Commands, one file each: a command resolves its arguments, calls a library, and renders the result.
 
 pub(crate) mod accept;
 mod attachments;

@@ -1,7 +1,7 @@
 //! The commands of `taceva`: how well does a vision-based tactile sensor measure?
 //!
-//! This crate parses arguments and renders results. Other crates do the work: `taceva-study`, `taceva-evaluate` and `taceva-import`. The program calls
-//! [`main_if_child`] and then [`main_with`]. A program in another language with these commands calls only [`main_with`].
+//! This crate parses arguments and renders results. Other crates do the work: `taceva-study`, `taceva-evaluate` and `taceva-import`. The program
+//! calls [`main_if_child`] and then [`main_with`]. A program in another language with these commands calls only [`main_with`].
 
 mod amount;
 mod args;
@@ -45,9 +45,9 @@ use invocation::Invocation;
 pub use bundle_verification::{BundleVerification, verify_bundle};
 pub use metrology::{Metrology, metrology};
 
-/// Serves another `taceva` and exits, if this process was started as its child process; otherwise returns. A `main` that does not begin with this
-/// function has no child processes. Plugins in libraries are then rejected unless an interpreter was named for them ([`taceva_host::run_within`]).
-/// AV1 clips are decoded by an ffmpeg, if there is one.
+/// Acts as the child process of another `taceva` and exits, if this process was started as such; otherwise returns. Without this call at the start
+/// of `main`, no child process can be started. Plugins in libraries are then rejected unless an interpreter was named for them
+/// ([`taceva_host::run_within`]). AV1 clips are then decoded by ffmpeg, if it is there.
 ///
 /// ```
 /// taceva_cli::main_if_child();
@@ -131,7 +131,7 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
     }
 }
 
-/// Time in which `command` must end after a signal: enough for a picture, or the 5 s of a plugin that fits a model. `None` for commands with devices, processes
+/// Time in which `command` must end after a signal: 8 s if it reads pictures or fits a model, else 1 s. `None` for commands with devices, processes
 /// or several recordings, which end by themselves.
 fn patience(command: &Command) -> Option<Duration> {
     match command {

@@ -1,13 +1,13 @@
 //! Checks before any work: a closed standard output, and the limit of file sizes.
 
-/// True if standard output was closed when the program started (`>&-`). Rust replaces a closed output by `/dev/null` before `main`, so that results would be
-/// lost without a message.
+/// True if standard output was closed when the program started (`>&-`). Rust replaces a closed output by `/dev/null` before `main`, so that results
+/// would be lost without a message.
 #[cfg(unix)]
 pub(crate) fn standard_output_is_closed() -> bool {
     before_main::WAS_CLOSED.load(std::sync::atomic::Ordering::Relaxed)
 }
 
-/// Returns false, because other systems report a closed standard output as a write error.
+/// Returns false: outside Unix, a closed standard output is reported as a write error.
 #[cfg(not(unix))]
 pub(crate) fn standard_output_is_closed() -> bool {
     false
@@ -45,6 +45,6 @@ pub(crate) fn refuse_to_end_at_the_limit_of_file_sizes() {
     drop(flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false))));
 }
 
-/// Does nothing, because other systems have no such signal.
+/// Does nothing: outside Unix, no signal reports the limit of file sizes.
 #[cfg(not(unix))]
 pub(crate) fn refuse_to_end_at_the_limit_of_file_sizes() {}

@@ -16,11 +16,11 @@ static STOPPED: AtomicBool = AtomicBool::new(false);
 static INSISTED: AtomicBool = AtomicBool::new(false);
 /// Progress bar on the terminal; `None` if no bar is drawn.
 static BAR: Mutex<Option<ProgressBar>> = Mutex::new(None);
-/// Delay before the end of the program in which a robot is halted.
+/// Time for a robot to halt before the program ends.
 const HALTING: Duration = Duration::from_millis(250);
 
-/// Stops work on SIGINT and SIGTERM: a robot leaves the gel, and the recording is complete. A second signal halts the robot in place and ends the program. With
-/// a `patience`, the program ends at the latest after this time.
+/// Stops work on SIGINT and SIGTERM: a robot leaves the gel, and the recording is complete. A second signal halts the robot in place and ends the
+/// program. With a `patience`, the program ends at the latest after this time.
 pub(crate) fn listen_for_signals(patience: Option<Duration>) {
     let listening = ctrlc::set_handler(move || {
         if STOPPED.swap(true, Ordering::SeqCst) {

@@ -37,7 +37,8 @@ use taceva_study::bench::KernelBench;
 
 use crate::args::{Format, TableScores};
 
-/// Writes an evaluation in the requested format. The main table has the rows of `channels`. If `channels` is empty, the rows are planes and single channels.
+/// Writes an evaluation in the requested format. The main table has the rows of `channels`. If `channels` is empty, the rows are planes and single
+/// channels.
 pub(crate) fn evaluation(
     report: &EvaluationReport,
     format: Format,

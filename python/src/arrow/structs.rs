@@ -10,7 +10,7 @@ use super::{ArrowColumn, aligned};
 /// `ARROW_FLAG_NULLABLE` of the Arrow C interface.
 const NULLABLE: i64 = 2;
 
-/// `struct ArrowSchema`.
+/// `struct ArrowSchema` of the Arrow C interface.
 #[repr(C)]
 struct Schema {
     format: *const c_char,
@@ -76,7 +76,7 @@ unsafe extern "C" fn release_schema(schema: *mut Schema) {
     }
 }
 
-/// `struct ArrowArray`.
+/// `struct ArrowArray` of the Arrow C interface.
 #[repr(C)]
 struct Array {
     length: i64,
@@ -156,7 +156,7 @@ unsafe extern "C" fn release_array(array: *mut Array) {
     }
 }
 
-/// `struct ArrowArrayStream`.
+/// `struct ArrowArrayStream` of the Arrow C interface.
 #[repr(C)]
 pub(super) struct Stream {
     get_schema: Option<unsafe extern "C" fn(*mut Stream, *mut Schema) -> c_int>,
@@ -173,7 +173,7 @@ pub(super) struct Batch {
     pub(super) metadata: Vec<u8>,
 }
 
-/// Data of a [`Stream`].
+/// Data that a [`Stream`] owns.
 struct StreamMemory {
     batch: Batch,
     is_given: bool,

@@ -1,4 +1,4 @@
-//! A changer in Python.
+//! Changer whose driver is a Python object.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use crate::errors::value_error;
 
 const BRING: &str = "bring it into place";
 
-/// An object with `bring(name, deadline)`.
+/// Changer that calls `bring(name, deadline)` of a Python object.
 pub(super) struct PythonChanger {
     object: Object,
     holds: Vec<String>,

@@ -1,4 +1,4 @@
-//! A Python class as a driver of devices.
+//! Driver whose devices are objects of a Python class.
 
 use pyo3::prelude::*;
 use taceva_core::{
@@ -15,14 +15,14 @@ use super::objects::{Object, keywords};
 use super::robot::PythonRobot;
 use super::sensor::PythonSensor;
 
-/// A class whose objects are devices.
+/// Driver whose devices are objects of a Python class.
 pub(super) struct PythonDriver {
     descriptor: Descriptor,
     class: Py<PyAny>,
 }
 
 impl PythonDriver {
-    /// Driver of `class`; `None` for a kind that is newer than this version.
+    /// Driver of the Python class `class`; `None` for a kind of device that is newer than this version.
     pub(super) fn made(descriptor: Descriptor, class: Py<PyAny>) -> Option<Made> {
         let kind = descriptor.kind();
         let driver = PythonDriver { descriptor, class };

@@ -15,7 +15,7 @@ use crate::arrays::Table;
 use crate::buffer::{Buffer, Number};
 use crate::errors::value_error;
 
-/// A class with `fit`, `predict`, `save` and `load`.
+/// Estimator that is a Python class with `fit`, `predict`, `save` and `load`.
 pub(super) struct PythonEstimator {
     info: EstimatorInfo,
     class: Py<PyAny>,
@@ -42,7 +42,7 @@ impl PythonEstimator {
     }
 }
 
-/// Converts the exception to an error; the host adds the estimator and the operation.
+/// Converts an exception of the estimator to an error; the host adds the estimator and the operation.
 fn model_error(py: Python<'_>, error: &PyErr) -> ModelError {
     ModelError::new(kind(py, error), short_words(py, error))
 }
@@ -132,7 +132,7 @@ impl EstimatorFactory for PythonEstimator {
     }
 }
 
-/// A fitted object.
+/// Python object that `fit` or `load` of the class returned.
 struct Fitted {
     object: Py<PyAny>,
     channels: Channels,

@@ -10,14 +10,14 @@ use taceva_core::{DriverError, DriverKey, ErrorKind, Fault};
 
 use super::waiting::Interrupted;
 
-/// Failed operation, in words that follow "cannot". During opening, an invalid value is the caller's argument.
+/// Failed operation, in words that follow "cannot". While a device is opened, an invalid value is an error in the caller's argument.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Doing {
     Opening(&'static str),
     Working(&'static str),
 }
 
-/// `error` as a failure of the device `key`.
+/// Converts the exception `error` to a failure of the device `key`.
 pub(super) fn device_error(
     py: Python<'_>,
     error: &PyErr,
@@ -83,9 +83,9 @@ pub(super) fn kind(py: Python<'_>, error: &PyErr) -> ErrorKind {
     }
 }
 
-/// Greatest size of an error in the interface, in bytes.
+/// Greatest size of an error message in the plugin interface, in bytes.
 const ERROR_MAX: usize = taceva_plugin::abi::MESSAGE_SIZE - 1;
-/// Size of a process reply that always fits, in bytes.
+/// Size of an exception text, in bytes, that always fits into the reply of a process.
 const ANSWER_MAX: usize = 1_900;
 
 /// The exception on one line: class, message, remedy, and the innermost file and line.
@@ -93,7 +93,7 @@ pub(super) fn words(py: Python<'_>, error: &PyErr) -> String {
     words_within(py, error, ANSWER_MAX)
 }
 
-/// As [`words`], shortened to the size of an error in the interface.
+/// The exception on one line, like [`words`], shortened to the size of an error message in the plugin interface.
 pub(super) fn short_words(py: Python<'_>, error: &PyErr) -> String {
     words_within(py, error, ERROR_MAX)
 }
@@ -140,7 +140,7 @@ fn words_within(py: Python<'_>, error: &PyErr, room: usize) -> String {
 
 /// Shortens `text` to `room` bytes: keeps the beginning and the end, and states the number of omitted characters between them.
 fn shortened(text: &str, room: usize) -> String {
-    /// Greatest size of the text that states the number of omitted characters, in bytes.
+    /// Greatest size, in bytes, of the text that states how many characters are omitted.
     const BETWEEN: usize = 48;
     if text.len() <= room || room < 2 * BETWEEN {
         return text.to_owned();
@@ -173,8 +173,7 @@ fn library(message: &str) -> &str {
     path.rsplit('/').next().unwrap_or(path)
 }
 
-/// Message of a syntax error, and the file and line that could not be parsed. The text of the error itself has the name of the file without its
-/// folder.
+/// For a syntax error, its message, and the file and line that Python could not parse. The text of the exception has no folder of the file.
 fn unread_line(py: Python<'_>, error: &PyErr) -> Option<(String, String)> {
     if !error.is_instance_of::<PySyntaxError>(py) {
         return None;
@@ -186,7 +185,7 @@ fn unread_line(py: Python<'_>, error: &PyErr) -> Option<(String, String)> {
     Some((message, line_of(&file, line)))
 }
 
-/// A line of a file, for messages.
+/// File and line as text, for messages.
 pub(super) fn line_of(file: &str, line: u32) -> String {
     format!("{file}, line {line}")
 }

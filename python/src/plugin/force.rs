@@ -14,7 +14,7 @@ use crate::errors::value_error;
 
 const READ: &str = "read the force";
 
-/// An object with `start`, `read(deadline)`, `stop` and, if declared, `zero(deadline)`.
+/// Force transducer that is a Python object with `start`, `read(deadline)`, `stop` and, if declared, `zero(deadline)`.
 pub(super) struct PythonForce {
     object: Object,
     axes: Axes,
@@ -23,13 +23,13 @@ pub(super) struct PythonForce {
     lost: Option<u64>,
 }
 
-/// Result of `read`.
+/// Result of `read` of the Python object.
 struct Reading {
     wrench: Wrench,
     stamp: Stamp,
-    /// Sequence number of the last reading; `None` before the first, or if the device numbers no readings.
+    /// Sequence number of the last reading; `None` before the first reading, or if the device does not number its readings.
     sequence: Option<u64>,
-    /// Number of lost readings; `None` if not counted.
+    /// Number of lost readings; `None` if the device does not count them.
     lost: Option<u64>,
 }
 
@@ -76,7 +76,7 @@ fn reading(said: &Bound<'_, PyAny>) -> PyResult<Reading> {
     })
 }
 
-/// Parses one number as the force along z, three as the force, six as force and torque.
+/// Parses the force on the transducer, in N: one number is along z, three are x, y and z. Six numbers include the torque.
 fn wrench(said: &Bound<'_, PyAny>) -> PyResult<Wrench> {
     let mut wrench = Wrench::default();
     let numbers: Vec<f64> = match said.extract::<f64>() {

@@ -7,7 +7,7 @@ use super::objects::Object;
 
 const SET: &str = "set the light";
 
-/// An object with `set(scene, deadline)`.
+/// Lighting device that is a Python object with `set(scene, deadline)`.
 pub(super) struct PythonLighting {
     object: Object,
     scenes: Vec<String>,

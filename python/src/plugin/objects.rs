@@ -43,7 +43,7 @@ impl Object {
         self.called(doing, Deadline::new(deadline, ends), work)
     }
 
-    /// As [`call`](Object::call), for a motion. A halt ends a pending `rest` of the deadline that `work` receives.
+    /// Calls `work` like [`call`](Object::call), for a motion: a halt ends its wait in `rest` of the deadline.
     pub(super) fn call_until_halted<T>(
         &self,
         doing: &'static str,
@@ -139,7 +139,7 @@ impl Drop for Object {
     }
 }
 
-/// Given arguments by name.
+/// Arguments of a device as keyword arguments for Python.
 pub(super) fn keywords<'py>(
     py: Python<'py>,
     specs: &[ArgSpec],

@@ -12,7 +12,7 @@ use super::drivers::PythonDriver;
 use super::estimator::PythonEstimator;
 use crate::errors::value_error;
 
-/// Plugin of this process; a process has only one plugin.
+/// The only plugin of this process, set when it is linked.
 static OFFERED: OnceLock<Offered> = OnceLock::new();
 
 /// A plugin in a Python module: its identity and its device classes.
@@ -44,7 +44,7 @@ impl Offered {
         })
     }
 
-    /// Interface table for the code at `path`. A process serves the first plugin that is linked.
+    /// Interface table of the plugin, whose code is at `path`. A process serves only the first plugin that calls this function.
     pub(super) fn linked(self, path: PathBuf) -> Linked {
         let offered = OFFERED.get_or_init(|| self);
         let mut table: Plugin = plugin::<Offered>();
@@ -57,7 +57,7 @@ impl Offered {
 }
 
 impl Export for Offered {
-    /// Replaced by [`Offered::linked`], which knows the id and the version.
+    /// Placeholder, which [`Offered::linked`] replaces by the id of the Python plugin.
     const ID: &'static str = "";
     const VERSION: &'static str = "";
 

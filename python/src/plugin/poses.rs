@@ -16,7 +16,7 @@ pub(super) fn python_pose<'py>(py: Python<'py>, pose: &Pose) -> PyResult<Bound<'
     py.import("taceva.plugin")?.getattr("Pose")?.call1(numbers)
 }
 
-/// Parses the result of `method`: three numbers are a position, six a position and an orientation of the tip.
+/// Parses a pose that the Python function `method` returned: three numbers are a position, six a position and an orientation of the tip.
 pub(super) fn pose_of(said: &Bound<'_, PyAny>, method: &str) -> PyResult<Pose> {
     let numbers: Vec<f64> = said.extract().unwrap_or_default();
     let (place, turn) = match numbers.as_slice() {
@@ -40,7 +40,7 @@ pub(super) fn pose_of(said: &Bound<'_, PyAny>, method: &str) -> PyResult<Pose> {
     })
 }
 
-/// Parses a pose and its time.
+/// Parses a pose with its time, which the Python function `method` returned.
 pub(super) fn placed(said: &Bound<'_, PyAny>, method: &str) -> PyResult<(Pose, Stamp)> {
     let parts: Result<(Bound<'_, PyAny>, Bound<'_, PyAny>), _> = said.extract();
     let Ok((pose, time)) = parts else {

@@ -17,7 +17,7 @@ use crate::errors::value_error;
 
 const MOVE: &str = "move";
 
-/// An object with `pose(deadline)`, `move_to(target, speed, deadline)`, `halt()` and `clear_halt(deadline)`; `move_guarded` and
+/// Robot that is a Python object with `pose(deadline)`, `move_to(target, speed, deadline)`, `halt()` and `clear_halt(deadline)`; `move_guarded` and
 /// `move_expiring` are optional.
 pub(super) struct PythonRobot {
     object: Object,
@@ -46,7 +46,7 @@ impl PythonRobot {
         DriverError::new(kind, self.object.key(), MOVE).because(why.into())
     }
 
-    /// Runs a motion. Stops a failed motion before returning its error. A motion that was halted on its way is an error.
+    /// Runs a motion. If the motion fails, stops the robot before it returns the error. A halt during the motion is an error.
     fn motion<T>(
         &self,
         deadline: Deadline,
@@ -92,7 +92,7 @@ impl PythonRobot {
     }
 }
 
-/// Halts a robot from any thread.
+/// Handle that halts the robot from any thread.
 struct Handle {
     latch: Arc<HaltLatch>,
     stopper: Stopper,

@@ -15,11 +15,11 @@ use crate::errors::value_error;
 
 const CAPTURE: &str = "capture a frame";
 
-/// An object with `start`, `capture(into, deadline)` and `stop`.
+/// Sensor that is a Python object with `start`, `capture(into, deadline)` and `stop`.
 pub(super) struct PythonSensor {
     object: Object,
     frame: FrameInfo,
-    /// Target array of frames, and its bytes; created for the first frame.
+    /// Numpy array that receives each frame, and access to its bytes; created for the first frame.
     into: Option<(Py<PyAny>, PyBuffer<u8>)>,
 }
 

@@ -16,7 +16,7 @@ const ASKED_EVERY: Duration = Duration::from_millis(20);
 /// Stack size of the thread in bytes, as in C programs. For linear systems, numpy needs more than the 2 MiB of Rust.
 const STACK: usize = 8 << 20;
 
-/// Event of a fit.
+/// Progress event of a fit: a stage begins, advances by steps, or ends.
 enum Event {
     Begins(String, Option<u64>),
     Advances(u64),

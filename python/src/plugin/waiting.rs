@@ -17,7 +17,7 @@ const LONG_S: f64 = 1e9;
 
 /// Signal that ends a wait early.
 pub(super) enum Ends {
-    /// An interrupt of the call.
+    /// An interrupt of the call that waits.
     Interrupt(Arc<Interruption>),
     /// A halt of the robot, before or during the call.
     Halt(Arc<HaltLatch>),

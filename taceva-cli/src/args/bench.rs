@@ -27,7 +27,7 @@ pub(crate) enum BenchSubject {
 /// to show differences. The time to read the columns is the lower limit. TACEVA_ISA=avx512|avx2|portable forces the path of every other command.
 #[derive(Debug, Args)]
 pub(crate) struct BenchKernels {
-    /// Rows of each of the six channels
+    /// The number of rows of each of the six channels
     #[arg(long, value_name = "N", default_value_t = 1_000_000)]
     pub(crate) rows: usize,
     /// Number of times each kernel is timed
@@ -73,14 +73,14 @@ pub(crate) struct BenchModels {
 ///
 /// Runs a study of the simulated bench for each combination of points, folds and models, without a cache. The table has the processor seconds of
 /// this process, without those of plugin processes. Mean absolute errors have 95 % intervals by contact point. The width of an interval is
-/// ln(upper end / lower end). A row is on the Pareto front if no other row has both less time and a lower mean width. With --seeds, the table
-/// also has the coverage of the intervals: the share of repetitions whose interval contains the mean error of the other repetitions.
+/// ln(upper end / lower end). A row is on the Pareto front if no other row has both less time and a lower mean width over the errors. With --seeds,
+/// the table also has the coverage of the intervals: the share of repetitions whose interval contains the mean error of the other repetitions.
 #[derive(Debug, Args)]
 pub(crate) struct BenchStudy {
     /// A file, or the name of a built-in scene: quick, paper. All its devices must be simulated
     #[arg(value_name = "SCENE", default_value = "quick")]
     pub(crate) scene: String,
-    /// The study of the scene [default: MagicTac, or the first study of a scene without it]
+    /// The study of the scene [default: MagicTac, or the first study if the scene has no MagicTac]
     #[arg(long, value_name = "NAME")]
     pub(crate) study: Option<String>,
     /// Numbers of calibration points, separated by commas

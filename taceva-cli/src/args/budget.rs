@@ -38,10 +38,10 @@ A file to start from, with every measured figure:
 #[derive(Debug, Args)]
 #[command(after_help = SOURCES_HELP)]
 pub(crate) struct Budget {
-    /// The sources: `[[source]]` with a name and an uncertainty, or with `from` and a measured figure
+    /// The file of sources: each `[[source]]` has a name, and an uncertainty or `from` with the name of a measured figure
     #[arg(value_name = "BUDGET.toml", required_unless_present = "template")]
     pub(crate) sources: Option<PathBuf>,
-    /// The result of one sensor, which `from` of the sources reads: JSON of evaluate or score, or a report of a run, with its samples beside it
+    /// The result of one sensor, for sources with `from`: JSON of evaluate or score, or a report of a run; the file of its samples is beside it
     #[arg(long, value_name = "RESULT")]
     pub(crate) results: Option<PathBuf>,
     /// A file with the certificate of the reference, instead of the certificate in the result: a table `[force.certificate]` or
@@ -51,7 +51,7 @@ pub(crate) struct Budget {
     /// The day on which the certificate must be valid [default: the day of the recording, if the result states it]
     #[arg(long, value_name = "YYYY-MM-DD")]
     pub(crate) date: Option<Date>,
-    /// The values of the measurand with their unit, separated by commas, such as 0.5N; only one value with --format json [default: `at` of the file]
+    /// The values of the measurand with their unit, separated by commas, such as 0.5N; only one with --format json [default: `at` of the file]
     #[arg(
         long,
         value_name = "VALUES",

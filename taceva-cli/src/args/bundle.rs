@@ -10,8 +10,8 @@ use super::{ListFormat, Output, PageArgs};
 /// Pack results with the files that compute them again; verify and compare such bundles
 ///
 /// A bundle holds results, the states and tables from which they were computed, and texts for readers; `taceva bundle verify` computes the
-/// numbers again. States come from `--state-out`. Tables are the inputs of `score`, or the samples beside a result (`--samples-out
-/// NAME.samples.csv`), which are found by their digest. A seal is a digest, not a signature: it shows damage and careless edits, not fraud.
+/// numbers again. States come from `--state-out`. Tables are the inputs of `score`, or the samples in the folder of a result (`--samples-out
+/// NAME.samples.csv`), found by their digest. A seal is a digest, not a signature: it shows damage and careless edits, not fraud.
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub(crate) struct Bundle {
@@ -24,7 +24,7 @@ pub(crate) struct Bundle {
 /// Operation on bundles.
 #[derive(Debug, Subcommand)]
 pub(crate) enum BundleSubject {
-    /// Compute the numbers of a bundle again, as deep as its files allow; the exit code is 1 if a claim differs and 3 if the bundle is damaged
+    /// Compute the numbers of a bundle again, at the deepest level that its files allow; exit code 1 if a claim differs, 3 if the bundle is damaged
     Verify(BundleVerify),
     /// Print the claims and definitions that differ between two bundles, and whether both have the same samples; verifies neither bundle
     Diff(BundleDiff),
@@ -53,7 +53,8 @@ pub(crate) struct BundleMake {
     /// An evaluated recording, to add its dataset.toml, and its pictures by --with frames; not needed for a run; may be repeated
     #[arg(long = "dataset", value_name = "DATASET")]
     pub(crate) datasets: Vec<PathBuf>,
-    /// A text file to add to the bundle: scene.toml, rig.toml, map.toml, limits.toml or tasks.toml. The scene of a run is added without it; may be repeated
+    /// A text file to add to the bundle: scene.toml, rig.toml, map.toml, limits.toml or tasks.toml. The scene of a run is added without it; may be
+    /// repeated
     #[arg(long = "text", value_name = "FILE")]
     pub(crate) texts: Vec<PathBuf>,
     /// A model file of the result, as fit writes it; implies --with model; may be repeated
@@ -62,7 +63,7 @@ pub(crate) struct BundleMake {
     /// Add files that are left out by default, separated by commas; models and pictures of a run come from its folder
     #[arg(long, value_enum, value_name = "PART", value_delimiter = ',')]
     pub(crate) with: Vec<WithPart>,
-    /// Leave files out, and state their digests: the bundle is then verified as deep as the rest allows
+    /// Leave files out, and state their digests: the bundle is then verified at the deepest level that the other files allow
     #[arg(long, value_enum, value_name = "PART")]
     pub(crate) without: Option<WithoutPart>,
     /// Redact texts: addresses of machines, serial numbers, absolute paths, separated by commas. Sealed files stay as they are
@@ -96,15 +97,15 @@ pub(crate) struct BundleMake {
 pub(crate) enum WithPart {
     /// Model files, so that the predictions can be computed again
     Model,
-    /// The predicted pictures, so that the model predicts them again without --dataset: at most 3840 files and 2 GiB, with every label of their
-    /// recording
+    /// The pictures whose predictions are claimed, so that the model predicts them again without --dataset: at most 3840 files and 2 GiB, with every
+    /// label of their recording
     Frames,
 }
 
 /// Files that can be left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum WithoutPart {
-    /// Tables of truth, of predictions and of samples
+    /// The tables of truth, of predictions and of samples
     Predictions,
 }
 
@@ -115,8 +116,8 @@ pub(crate) struct BundleVerify {
     /// The level to reach; the exit code is 1 if a claim does not reach it [default: the deepest that the files allow]
     #[arg(long, value_enum, value_name = "LEVEL")]
     pub(crate) level: Option<LevelArg>,
-    /// An evaluated recording, for the level fit, and for the level model if the bundle has no pictures: the model of the bundle predicts the
-    /// recording again; may be repeated
+    /// An evaluated recording, which the model of the bundle predicts again; for the level fit, and for the level model if the bundle has no
+    /// pictures; may be repeated
     #[arg(long = "dataset", value_name = "DATASET")]
     pub(crate) datasets: Vec<PathBuf>,
     /// The greatest difference between a claim and its recomputed number for the verdict `within`, in the unit of each score
@@ -154,7 +155,7 @@ pub(crate) enum LevelArg {
     Predictions,
     /// The model reproduces the predictions on the recording that --dataset names
     Model,
-    /// A fit with the settings of the model card reproduces the model, or gives scores within the intervals of the claims; takes as long as the first fit
+    /// A fit with the settings of the model card reproduces the model, or gives scores within the intervals of the claims; takes as long as that fit
     Fit,
 }
 

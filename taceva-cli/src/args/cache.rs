@@ -50,10 +50,10 @@ pub(crate) struct CachePrune {
     /// Remove entries that were unused for longer than this: 12h, 30d, 8w
     #[arg(long, value_name = "AGE", value_parser = age)]
     pub(crate) older_than: Option<Duration>,
-    /// Remove the longest unused entries until the cache holds at most this size: 2GiB, 500MB, 0
+    /// Remove entries, those unused for the longest time first, until the cache holds at most this size: 2GiB, 500MB, 0
     #[arg(long, value_name = "SIZE", value_parser = size)]
     pub(crate) keep: Option<u64>,
-    /// Only these kinds, separated by commas [default: all]
+    /// Remove only entries of these kinds, separated by commas [default: all]
     #[arg(long, value_enum, value_name = "KINDS", value_delimiter = ',')]
     pub(crate) kind: Vec<StageArg>,
     #[command(flatten)]
@@ -62,12 +62,12 @@ pub(crate) struct CachePrune {
 
 #[derive(Debug, Args)]
 pub(crate) struct CacheFolder {
-    /// The cache [default: taceva in the user's cache folder]
+    /// The folder of the cache [default: taceva in the user's cache folder]
     #[arg(id = "cache", long, value_name = "DIR")]
     pub(crate) path: Option<PathBuf>,
 }
 
-/// A kind of entry.
+/// Kind of a cache entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum StageArg {
     /// Recordings of the simulated bench

@@ -31,7 +31,7 @@ pub(crate) enum CatalogueSubject {
 
 #[derive(Debug, Args)]
 pub(crate) struct CatalogueList {
-    /// The folder of a catalogue, whose sensors are listed too, with the number of their rows
+    /// The folder of a catalogue, whose sensors are listed too, each with its number of values from bundles
     #[arg(long, value_name = "DIR")]
     pub(crate) catalogue: Option<PathBuf>,
     #[command(flatten)]
@@ -42,7 +42,7 @@ pub(crate) struct CatalogueList {
 pub(crate) struct CatalogueShow {
     /// The name of the sensor or an alias, such as "GelSight Mini"; `taceva catalogue list` prints all names
     pub(crate) name: String,
-    /// The folder of a catalogue, whose numbers follow the published numbers; each number states the level of its verification
+    /// The folder of a catalogue, whose numbers are printed after the published numbers; each number states the level of its verification
     #[arg(long, value_name = "DIR")]
     pub(crate) catalogue: Option<PathBuf>,
     #[command(flatten)]
@@ -65,11 +65,11 @@ pub(crate) struct CatalogueSite {
     pub(crate) force: bool,
 }
 
-/// Verify a bundle as deep as its files allow, and add its numbers to the catalogue in a folder
+/// Verify a bundle at the deepest level that its files allow, and add its numbers to the catalogue in a folder
 ///
 /// The catalogue is a folder with `entries/`, one file for each sensor, and `bundles/`, the manifests. Numbers go into `[[measured]]` if their
-/// samples are recorded, into `[[simulated]]` if these are simulated or synthetic, else into `[[unknown]]`. Published numbers stay as they are.
-/// A draft is refused, and so is a bundle whose results the catalogue already has. The exit code is 1 for a bundle that is not verified, and 3
+/// samples are recorded, into `[[simulated]]` if their samples are simulated or synthetic, else into `[[unknown]]`. Published numbers stay as they
+/// are. A draft is refused, and so is a bundle whose results the catalogue already has. The exit code is 1 for a bundle that is not verified, and 3
 /// for a damaged or refused bundle.
 #[derive(Debug, Args)]
 pub(crate) struct CatalogueAdd {
@@ -98,7 +98,7 @@ pub(crate) struct CatalogueCheckArgs {
     pub(crate) output: Output,
 }
 
-/// Write the catalogue in a folder in forms that other programs read
+/// Write the catalogue in a folder as files for the Hugging Face Hub, Croissant or RO-Crate
 ///
 /// The files hold only numbers of bundles, not published numbers. Write them again after `taceva catalogue add`.
 #[derive(Debug, Args)]

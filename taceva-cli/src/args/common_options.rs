@@ -27,7 +27,7 @@ pub(crate) struct ModelArgs {
     pub(crate) settings: SettingArgs,
 }
 
-/// As [`ModelArgs`], if a fitted model can be given instead.
+/// Model to fit, and its settings, for a command that also accepts a fitted model.
 #[derive(Debug, Args)]
 pub(crate) struct OptionalModelArgs {
     #[arg(long = "model", value_name = "NAME", help = MODEL_HELP)]
@@ -50,7 +50,7 @@ pub(crate) struct SettingArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct ViewArgs {
-    /// The view of recordings whose samples have several pictures, such as left, or several side by side: left+right [default: the only
+    /// The view, such as left, of recordings whose samples have several pictures; left+right joins two views side by side [default: the only
     /// picture, or the view that a fitted model was fitted on]
     #[arg(id = "view", long = "view", value_name = "VIEW")]
     pub(crate) name: Option<String>,
@@ -58,12 +58,12 @@ pub(crate) struct ViewArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct SplitArgs {
-    /// The division of samples: random, chronological, by-point, by-block, declared or by-column:NAME[=train:1,2;val:3;test:4]. Write shares of
-    /// training, validation and test behind a space: 'chronological 80/0/20' tests the last fifth of the samples in order of time. all trains on
-    /// every sample, for a final model. cv:K and loo predict each sample once. Groups for them follow a space: 'cv:5 by-point', or random, by-block
-    /// or by-column:NAME. Several recordings also accept by-recording[=train:A,B;test:C]. leave-one-recording-out fits a model without each
-    /// recording in turn [default: by-point if points repeat, else by groups or blocks of time if neighbours resemble each other, else random.
-    /// With 5 to 999 groups `evaluate` uses cv:5 by these groups]
+    /// The division of samples: random, chronological, by-point, by-block, declared or by-column:NAME[=train:1,2;val:3;test:4]. Shares of training,
+    /// validation and test follow a space: 'chronological 80/0/20' tests the last fifth of the samples in order of time. all trains on every sample,
+    /// for a final model. cv:K and loo predict each sample once. The kind of their groups follows a space: 'cv:5 by-point', or random, by-block or
+    /// by-column:NAME. Several recordings also accept by-recording[=train:A,B;test:C]. leave-one-recording-out fits a model without each recording
+    /// in turn [default: by-point if points repeat, else by groups or blocks of time if neighbours resemble each other, else random. With 5 to 999
+    /// groups `evaluate` uses cv:5 by these groups]
     #[arg(long, value_name = "SPLIT")]
     pub(crate) split: Option<String>,
     #[command(flatten)]
@@ -79,7 +79,7 @@ pub(crate) struct SeedArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct SplitOutArgs {
-    /// Write the ids of the training, validation and test samples as JSON, and of the test samples of each fold
+    /// Write the ids of the training, validation and test samples as JSON; with folds, also the ids of the test samples of each fold
     #[arg(id = "split_out", long = "split-out", value_name = "SPLIT.json")]
     pub(crate) path: Option<PathBuf>,
 }
@@ -113,8 +113,8 @@ pub(crate) struct ScoringArgs {
         default_value = "all"
     )]
     pub(crate) metrics: Vec<String>,
-    /// Treat each sample as independent of the others: intervals are then over samples instead of contact points;
-    /// `evaluate` refuses it where neighbouring samples resemble each other
+    /// Treat each sample as independent of the others: intervals are then over samples instead of contact points.
+    /// `evaluate` refuses this option if neighbouring samples resemble each other
     #[arg(long)]
     pub(crate) independent: bool,
     /// Facts about the sensor: footprint, greatest depth, opacity; metrics that need a missing fact are skipped
@@ -168,10 +168,10 @@ pub(crate) struct Output<F: ValueEnum + Default + Send + Sync + 'static = Format
 /// The format of a table of results.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
-    /// For people
+    /// Text for people
     #[default]
     Text,
-    /// For programs; the key `schema` names its form
+    /// JSON for programs, with the name of its schema in the key `schema`
     Json,
     /// One row for each score or finding
     Csv,
@@ -213,10 +213,10 @@ impl TableScores {
 /// The format of a list or a plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ListFormat {
-    /// For people
+    /// Text for people
     #[default]
     Text,
-    /// For programs; the key `schema` names its form
+    /// JSON for programs, with the name of its schema in the key `schema`
     Json,
 }
 

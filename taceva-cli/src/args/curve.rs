@@ -6,11 +6,11 @@ use clap::Args;
 
 use super::Output;
 
-/// Fit a calibration curve: bands, the reference value of a reading, limits of detection
+/// Fit a calibration curve; print its confidence and prediction bands, the reference value of a reading, and limits of detection
 ///
-/// The table is CSV or Parquet: `--samples-out` of `evaluate` writes one. A polynomial is fitted by least squares to readings y over reference values x.
-/// Rows of one contact point are not independent. With five or more points, bands are also computed from fits that leave out one point
-/// each; the wider band is given.
+/// The table is CSV or Parquet: `--samples-out` of `evaluate` writes one. A polynomial is fitted by least squares to readings y over reference values
+/// x. Rows of one contact point are not independent. With five or more points, a second band is computed from fits that leave out one point each.
+/// The wider band is printed.
 #[derive(Debug, Args)]
 pub(crate) struct Curve {
     /// The table of readings
@@ -25,13 +25,13 @@ pub(crate) struct Curve {
     /// The order of the polynomial, 1 to 3
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=3))]
     pub(crate) order: u8,
-    /// The probability of bands and of inverse predictions
+    /// The probability of bands and of intervals of inverted readings
     #[arg(long, value_name = "P", default_value_t = 0.95)]
     pub(crate) band: f64,
     /// Make the confidence band hold at all reference values together
     #[arg(long)]
     pub(crate) simultaneous: bool,
-    /// The reference values of the bands, separated by commas, in the unit of x [default: five from the least to the greatest]
+    /// The reference values at which bands are printed, separated by commas, in the unit of x [default: five from the least to the greatest]
     #[arg(
         long,
         value_name = "VALUES",
@@ -42,16 +42,16 @@ pub(crate) struct Curve {
     /// The readings to invert, with their unit and separated by commas, such as 0.35N
     #[arg(long, value_name = "READINGS", value_delimiter = ',')]
     pub(crate) invert: Vec<String>,
-    /// Also give the critical and the detectable reference value
+    /// Also print the limits of detection as reference values: the critical and the detectable value
     #[arg(long)]
     pub(crate) detect: bool,
     /// Also give relative errors like those of ISO 7500-1, from a fifth of the greatest reference value on; no class is assigned
     #[arg(long)]
     pub(crate) iso7500: bool,
-    /// Also give relative errors like those of ISO 376, of series X1, X2, X3, X4', X5 and X6' that the cells of this column name; no class is assigned
+    /// Also print relative errors like those of ISO 376; the cells of this column name the series X1, X2, X3, X4', X5 or X6'. No class is assigned
     #[arg(long, value_name = "COLUMN")]
     pub(crate) iso376: Option<String>,
-    /// The number of new readings that are averaged
+    /// The number of new readings whose mean is inverted, and for which bands and limits of detection hold
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) readings: u32,
     /// The column of contact points [default: `point_id` where the table has it]

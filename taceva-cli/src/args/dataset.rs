@@ -31,7 +31,7 @@ pub(crate) struct Import {
     /// Format of the list of --presets
     #[arg(long, value_name = "FORMAT", value_enum, default_value_t = ListFormat::Text, requires = "presets")]
     pub(crate) format: ListFormat,
-    /// Write a first map for the folder, with reasons as comments and units left open; to the terminal, or to --out
+    /// Write a first map for the folder, with reasons as comments and unknown units left open; to the terminal, or to --out
     #[arg(long, conflicts_with = "explain")]
     pub(crate) draft: bool,
     /// The dataset to write: a new folder; with --draft or --print the map
@@ -59,34 +59,34 @@ pub(crate) struct Import {
 /// Write a dataset in a form that other programs read
 ///
 /// Labels and signals are kept to the last bit, pictures to the last pixel, and their files byte for byte if the format contains files.
-/// `map.toml` beside them restores all of it: `taceva import FOLDER --map FOLDER/map.toml --out DATASET`. Data that no map can express
+/// `map.toml` in the same folder restores all of it: `taceva import FOLDER --map FOLDER/map.toml --out DATASET`. Data that no map can express
 /// (camera settings, ends of presses) is listed.
 ///
-/// Read by: huggingface: `datasets.load_dataset("FOLDER")`; lerobot: `LeRobotDataset("me/it", root="FOLDER")`; hdf5: `h5py.File("FOLDER/recording.h5")`;
-/// csv: anything.
+/// Readers: for huggingface `datasets.load_dataset("FOLDER")`, for lerobot `LeRobotDataset("me/it", root="FOLDER")`, for hdf5
+/// `h5py.File("FOLDER/recording.h5")`, for csv any program.
 #[derive(Debug, Args)]
 pub(crate) struct Export {
-    /// The dataset
+    /// The dataset to export
     pub(crate) dataset: PathBuf,
     /// The new folder to write, created completely or not at all
     #[arg(long, value_name = "FOLDER")]
     pub(crate) out: PathBuf,
-    /// The format
+    /// The format to write
     #[arg(long, value_name = "FORM", value_enum, default_value_t = Form::Huggingface)]
     pub(crate) format: Form,
 }
 
 /// Show the content of a dataset and its devices, with certificates and latencies
 ///
-/// Prints one fact per line: content, origin, days of recording, instruments of the labels, their certificates, settings and latencies of the devices,
-/// sessions, warnings. No frame is decoded.
+/// Prints one fact per line: content, origin, days of recording, instruments of the labels, their certificates, settings and latencies of the
+/// devices, sessions, warnings. No frame is decoded.
 #[derive(Debug, Args)]
 pub(crate) struct Show {
-    /// The dataset
+    /// The dataset to show
     pub(crate) dataset: PathBuf,
 }
 
-/// Format of an export.
+/// Format of an exported dataset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Form {
     /// A table, labels.csv, and one file for each picture in its original bytes

@@ -45,7 +45,7 @@ fn letters_pt(text: &str) -> Result<f64, String> {
     Ok(millimetres * 72.0 / 25.4)
 }
 
-/// Parses a length with its unit and returns it in mm. Fails outside `ends`, which are in mm.
+/// Parses a length with its unit and returns it in mm. `ends` are the least and the greatest accepted length, mm.
 fn length_mm(text: &str, ends: [f64; 2], example: &str) -> Result<f64, String> {
     let parts = LENGTHS.iter().find_map(|(unit, length_mm)| {
         let number = text.trim().strip_suffix(unit)?.trim_end();

@@ -10,7 +10,7 @@ use super::Output;
 ///
 /// A part is a contact condition, and a trial is a repeat. An operator is the factor that differs between the measurements of a part: unit, gel,
 /// day, person or laboratory. Every operator measures every part equally often, or with `--nested` its own parts. The table is CSV or Parquet:
-/// `--samples-out` of `evaluate` writes one, and tables of several units are joined below one header. A column `source` with words such as
+/// `--samples-out` of `evaluate` writes one; to join the tables of several units, keep the header once. A column `source` with words such as
 /// recorded or simulated, or the result `<name>.json` beside `<name>.samples.csv`, states the origin of the samples. Fewer than five operators
 /// give wide intervals.
 #[derive(Debug, Args)]
@@ -30,16 +30,16 @@ pub(crate) struct Gauge {
     /// Each part is measured by one operator; the same name under two operators means two parts
     #[arg(long)]
     pub(crate) nested: bool,
-    /// The estimator of the components
+    /// The estimator of the variance components
     #[arg(long, value_enum, default_value_t)]
     pub(crate) method: GaugeMethod,
-    /// The readings [default: error where the table holds the truth, else prediction]
+    /// The quantity that counts as a reading [default: error if the table has the truth, else prediction]
     #[arg(long, value_enum)]
     pub(crate) response: Option<GaugeResponse>,
     /// The width of the tolerance with its unit, such as 0.1N: adds the ratio of six standard deviations to the tolerance
     #[arg(long, value_name = "WIDTH")]
     pub(crate) tolerance: Option<String>,
-    /// Pool the interaction with repeatability if the p value of the interaction is above this number
+    /// Pool the interaction of parts and operators with repeatability if its p value is above this number
     #[arg(long, value_name = "P", default_value_t = 0.25)]
     pub(crate) pool: f64,
     /// The channels to study, separated by commas, such as Fz; only one channel with --format json [default: all with a prediction, in the unit
@@ -53,7 +53,7 @@ pub(crate) struct Gauge {
     pub(crate) output: Output,
 }
 
-/// Estimator of the components.
+/// Estimator of the variance components.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum GaugeMethod {
     /// Analysis of variance
@@ -63,7 +63,7 @@ pub(crate) enum GaugeMethod {
     Range,
 }
 
-/// Readings of a channel.
+/// Quantity of a channel that counts as a reading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum GaugeResponse {
     /// The predictions, or the column of the channel itself if the table has no predictions

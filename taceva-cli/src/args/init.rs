@@ -14,7 +14,7 @@ pub(crate) struct Init {
     pub(crate) subject: Option<InitSubject>,
 }
 
-/// The file to begin with.
+/// File that `taceva init` writes.
 #[derive(Debug, Subcommand)]
 pub(crate) enum InitSubject {
     /// A map for a folder of pictures and labels: drafted from the files, then completed by questions
@@ -39,7 +39,7 @@ pub(crate) struct InitTarget {
     /// The file to write [default: map.toml, scene.toml or rig.toml in the working folder]
     #[arg(long = "out", value_name = "FILE")]
     pub(crate) path: Option<PathBuf>,
-    /// Ask nothing and take every default; a map keeps places without a default open, and a rig file has no default for its devices
+    /// Ask nothing and take every default; values of a map without a default stay open, and the devices of a rig file have no default
     #[arg(long, short)]
     pub(crate) yes: bool,
     /// Replace a file that exists already

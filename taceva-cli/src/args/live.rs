@@ -51,10 +51,10 @@ pub(crate) struct Capture {
     pub(crate) path: PathBuf,
     #[command(flatten)]
     pub(crate) live: LiveArgs,
-    /// Duration by the stamps of the frames: 60s, 5min [default: until Ctrl-C]
+    /// Duration of the capture by the timestamps of its frames: 60s, 5min [default: until Ctrl-C]
     #[arg(long = "for", value_name = "TIME", value_parser = duration)]
     pub(crate) lasts: Option<Duration>,
-    /// Number of frames
+    /// Number of frames after which the capture ends
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) frames: Option<u64>,
     /// Name of the sensor in reports [default: the name of its driver]
@@ -75,7 +75,7 @@ pub(crate) struct Capture {
     /// A fitted model, as `taceva fit` writes it; predicts as many frames as time permits, on a page and into OUT/predictions.csv
     #[arg(long, value_name = "FILE")]
     pub(crate) model: Option<PathBuf>,
-    /// The port of the page of --model on 127.0.0.1, 0 for any free port
+    /// The port of the page that --model opens on 127.0.0.1, 0 for any free port
     #[arg(long, value_name = "N", default_value_t = 0, requires = "model")]
     pub(crate) port: u16,
     /// Open no device: close a capture that was interrupted by a full disk, a power cut or a kill

@@ -13,9 +13,9 @@ use super::{
 
 /// Fit a model on the training part of a dataset and write it to a file
 ///
-/// The file holds the model, its split and the digest of the dataset. `taceva evaluate DATASET --with MODEL` scores the samples that the model has not
-/// seen, and `taceva predict` predicts. With --split all or cv:5 the model is fitted on every sample, so only another recording can test it. cv:5 also
-/// stores the scores of its folds.
+/// The file holds the model, its split and the digest of the dataset. `taceva evaluate DATASET --with MODEL` scores the samples that the model has
+/// not seen, and `taceva predict` predicts. With --split all or cv:5 the model is fitted on every sample, so only another recording can test it.
+/// cv:5 also stores the scores of its folds.
 ///
 /// During the training of a network, a checkpoint is written to the file MODEL.checkpoint every 30 s, and when the training is
 /// stopped. The same command resumes from the checkpoint, writes the same bytes as an uninterrupted training, and removes the checkpoint.
@@ -26,8 +26,8 @@ pub(crate) struct Fit {
     pub(crate) datasets: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) view: ViewArgs,
-    /// Fit a classifier to a task of the dataset in the place of channels: lda, linfa/logistic, smartcore/knn-classifier, cnn, resnet10, resnet18,
-    /// resnet34, or auto, which takes the best of the first three on the validation part. The split keeps clusters whole
+    /// Fit a classifier to a task of the dataset instead of a model of channels: lda, linfa/logistic, smartcore/knn-classifier, cnn, resnet10,
+    /// resnet18, resnet34, or auto. auto takes the best of the first three on the validation part. The split keeps clusters whole
     #[arg(long, value_name = "NAME")]
     pub(crate) task: Option<String>,
     #[command(flatten)]
@@ -53,10 +53,10 @@ pub(crate) struct Fit {
 
 /// Fit a model, or use a fitted one, and score it on unseen samples
 ///
-/// Without --split, 5 to 999 groups of samples, such as contact points, are scored in five folds (cv:5). Each sample is predicted once, by a model that
-/// has not seen its group. Otherwise the model is fitted on the training part, its settings are chosen on the validation part, and the test part is
-/// scored. The default model is `fast`, a small network, or `ridge` for signals of taxels. With --with, a fitted model is used: on its own dataset
-/// only the unseen part is scored.
+/// Without --split, 5 to 999 groups of samples, such as contact points, are scored in five folds (cv:5). Each sample is predicted once, by a model
+/// that has not seen its group. Otherwise the model is fitted on the training part, its settings are chosen on the validation part, and the test
+/// part is scored. The default model is `fast`, a small network, or `ridge` for signals of taxels. With --with, a fitted model is used: on its own
+/// dataset only the unseen part is scored.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("which").args(["with", "name"]))]
 pub(crate) struct Evaluate {
@@ -68,9 +68,9 @@ pub(crate) struct Evaluate {
     /// A fitted model file
     #[arg(long, value_name = "MODEL")]
     pub(crate) with: Option<PathBuf>,
-    /// Fit a classifier to a task of the dataset in the place of channels: lda [default], linfa/logistic, smartcore/knn-classifier, cnn, resnet10,
-    /// resnet18, resnet34, or auto, which takes the best of the first three on the validation part. Poses and depth maps take any model of numbers.
-    /// The split keeps clusters whole [default: cv:5 by the cluster of the task]
+    /// Fit a classifier to a task of the dataset instead of a model of channels: lda [default], linfa/logistic, smartcore/knn-classifier, cnn,
+    /// resnet10, resnet18, resnet34, or auto, which takes the best of the first three on the validation part. For poses and depth maps, fit any model
+    /// that predicts numbers. The split keeps clusters whole [default: cv:5 by the cluster of the task]
     #[arg(
         long,
         value_name = "NAME",
@@ -154,8 +154,8 @@ pub(crate) struct Score {
     /// Count NaN and infinite cells as n_invalid instead of rejecting the file (with --task, count their rows and leave them out)
     #[arg(long)]
     pub(crate) allow_invalid: bool,
-    /// Score only shard K of N, a range of consecutive rows (with --task, of clusters by name); tables may have any length; `taceva merge` merges
-    /// the states of --state-out to the scores of all rows
+    /// Score only shard K of N: one of N ranges of consecutive rows, or with --task of clusters in the order of names. `taceva merge` merges the
+    /// states of --state-out to the scores of all rows
     #[arg(long, value_name = "K/N", conflicts_with_all = ["samples_out", "html", "figures"])]
     pub(crate) shard: Option<Shard>,
     #[command(flatten)]

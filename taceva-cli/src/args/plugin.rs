@@ -223,7 +223,7 @@ pub(crate) struct PluginPack {
 pub(crate) struct PluginAllow {
     /// The id of the plugin
     pub(crate) id: String,
-    /// Access to grant, from the needs of the manifest
+    /// Access to grant, each as `needs` of the manifest states it
     #[arg(required = true, value_name = "NEED")]
     pub(crate) needs: Vec<Need>,
 }

@@ -11,18 +11,18 @@ use super::{FigureArgs, Format, Output, PageArgs, SeedArgs, TableArgs};
 /// Text and Markdown show the values side by side, then the comparable results. Results are JSON files of `evaluate` and `score`, folders of
 /// runs (or their results.json), or names of the catalogue. If two results predict the same samples, their mean absolute errors are compared
 /// sample by sample. The samples are read from `<name>.samples.csv` beside `<name>.json` (`--samples-out` writes it) and from `reports/` of a
-/// run. Other scores are compared by the intervals of both, with Holm's adjustment. Results of one dataset that were tested on different samples, such
-/// as by another --seed or --split, are shown side by side and not ranked. Results and states of tasks are compared cluster by cluster, if they have
-/// the same labels, and a state or `NAME.state` beside `NAME.json`.
+/// run. Other scores are compared by the intervals of both, with Holm's adjustment. Results of one dataset that were tested on different samples,
+/// such as by another --seed or --split, are shown side by side and not ranked. Results of tasks are compared cluster by cluster, if they have the
+/// same labels. Their states are read from the given state files, or from `NAME.state` beside `NAME.json`.
 #[derive(Debug, Args)]
 pub(crate) struct Compare {
-    /// The results to compare; a run of several sensors alone is compared within itself
+    /// The results to compare; for a single run, the sensors of the run are compared
     #[arg(required = true, value_name = "RESULT", num_args = 1..)]
     pub(crate) results: Vec<PathBuf>,
     /// The folder of a catalogue, whose sensors can be named too; numbers of its bundles state the level of their verification
     #[arg(long, value_name = "DIR")]
     pub(crate) catalogue: Option<PathBuf>,
-    /// Metrics, separated by commas: ids, or the groups accuracy and all [default: all with a direction]
+    /// Metrics, separated by commas: ids, or the groups accuracy and all [default: all for which less or more is better]
     #[arg(long, value_name = "METRICS", value_delimiter = ',')]
     pub(crate) metrics: Vec<String>,
     /// The channels and planes with a row in the tables, separated by commas, such as Fx,Fy,Fz [default: planes in place of their axes]
@@ -33,7 +33,8 @@ pub(crate) struct Compare {
     pub(crate) margins: Vec<String>,
     #[command(flatten)]
     pub(crate) seed: SeedArgs,
-    /// Print every score and every pair with both p values and its interval, not only the main scores and pairs. Markdown, CSV and JSON have every pair in any case
+    /// Print every score and every pair with both p values and its interval, not only the main scores and pairs. Markdown, CSV and JSON have every
+    /// pair in any case
     #[arg(long)]
     pub(crate) all: bool,
     #[command(flatten)]
@@ -85,8 +86,8 @@ pub(crate) enum Like {
 /// Find sensors for a task, with the numbers behind the ranking
 ///
 /// Needs are words, such as shear or ambient light, and numbers, such as rate >= 50 Hz; all are listed below. Hard needs exclude a sensor, soft
-/// needs rank the others. A sensor whose number is unknown stays open. Each sensor without a place names every need that it does not meet and
-/// every unknown number.
+/// needs rank the others. A sensor whose number is unknown is `open` instead of ranked. For each sensor without a rank, the reason names every need
+/// that it does not meet and every unknown number.
 #[derive(Debug, Args)]
 #[command(after_help = needs_help(), group = ArgGroup::new("asked").required(true).args(["need", "needs"]))]
 pub(crate) struct Choose {
@@ -144,10 +145,10 @@ Limits of version 1 are read too: `whole_interval = true` compares the whole int
 A file to start from, with the measured value beside each limit:
   taceva accept --template RESULT.json --out limits.toml";
 
-/// Conditional verdict that counts as met.
+/// Kind of conditional verdict that `--conditional` counts as met.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum Conditional {
-    /// A value within the limit that its rule does not accept
+    /// Conditional pass: the value is within the limit, but the decision rule does not accept it
     Pass,
 }
 

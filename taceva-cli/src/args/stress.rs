@@ -10,12 +10,13 @@ use super::{ExplainArgs, Output, PageArgs, SeedArgs, ViewArgs};
 /// Score a fitted model on pictures or signals with faults: blur, dead pixels, lost light, wear, dust, dead taxels
 ///
 /// Faults are applied to the pictures or signals of the recording, and the model predicts them without being fitted again. Severities 1 to 5
-/// change the untouched picture by 0.03, 0.1, 0.3, 1 and 3 of the mean change by contact. If the model reads an untouched picture, a fault that is alike in
-/// all pictures has a second score: with an untouched picture that has the fault. A fitted model is scored on samples that it has not seen.
+/// change the untouched picture by 0.03, 0.1, 0.3, 1 and 3 times the change by contact, a mean over pictures. If the model reads an untouched
+/// picture, a fault that is equal in all pictures has a second score, for an untouched picture with the fault. A fitted model is scored on samples
+/// that it has not seen.
 #[derive(Debug, Args)]
 #[command(after_help = faults_help())]
 pub(crate) struct Stress {
-    /// The recording
+    /// The recording whose samples are predicted
     #[arg(value_name = "DATASET")]
     pub(crate) dataset: PathBuf,
     /// A fitted model file
@@ -27,28 +28,28 @@ pub(crate) struct Stress {
     /// times, ORG/NAME for a fault of a plugin [default: gel-12, or taxel-3 if the model reads signals]
     #[arg(long, value_name = "FAULTS", value_delimiter = ',')]
     pub(crate) faults: Vec<String>,
-    /// A second fitted model: also states the error that each fault adds, divided by the error that the fault adds to the second model, and the
-    /// differences that are shown
+    /// A second fitted model: also prints the error that each fault adds, as a ratio to and a difference from the error that it adds to the
+    /// second model
     #[arg(long, value_name = "MODEL")]
     pub(crate) reference: Option<PathBuf>,
     /// Severities, such as 3, 1,3,5 or 1-5
     #[arg(long, value_name = "SEVERITIES", default_value = "1-5")]
     pub(crate) severity: String,
-    /// The quantity that sets severity
+    /// The quantity that severities set
     #[arg(long, value_enum, default_value_t)]
     pub(crate) by: StressBy,
     #[command(flatten)]
     pub(crate) seed: SeedArgs,
-    /// Random draws of the places of dead pixels, scratches, tears, dust and taxels; every draw is predicted, so that no single draw decides
+    /// Number of random draws of the places of dead pixels, scratches, tears, dust and taxels; scores are means over the draws
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100))]
     pub(crate) draws: u32,
     /// The samples on which the model is scored [default: test, or all if the model was fitted on another recording]
     #[arg(long, value_enum)]
     pub(crate) part: Option<StressPart>,
-    /// Metrics of each cell beside mae and skill, separated by commas: rmse, bias, r2, smape, smape_gated, mae_euclid
+    /// Metrics of each fault and severity in addition to mae and skill, separated by commas: rmse, bias, r2, smape, smape_gated, mae_euclid
     #[arg(long, value_name = "METRICS", value_delimiter = ',')]
     pub(crate) metrics: Vec<String>,
-    /// Leaves out the severities of a fault above the first at which no skill is left; each severity decodes the pictures once
+    /// Skip the severities of a fault above the first at which no channel has skill; the pictures are then decoded once for each severity
     #[arg(long)]
     pub(crate) stop_at_no_skill: bool,
     #[command(flatten)]
@@ -91,12 +92,12 @@ pub(crate) enum StressPart {
     All,
 }
 
-/// Quantity that sets severity.
+/// Quantity that severities set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum StressBy {
     /// The change of the untouched picture, relative to the change by contact
     #[default]
     Stimulus,
-    /// The parameter of the fault, from a table
+    /// The parameter of the fault, from a fixed table of parameters
     Parameter,
 }

@@ -38,8 +38,9 @@ The same command continues a stopped sweep. `taceva sweep show FILE --by model,s
 
 /// Evaluate many combinations of recordings, models, settings, splits and seeds, here or on a cluster
 ///
-/// Every combination of recordings, models, settings, splits and seeds is a task; its result file is named by the digest of all its inputs.
-/// The table, its digest and the page depend neither on the number of workers nor on where tasks ran. The exit code is 1 if a task failed or a limit was missed.
+/// Every combination of recordings, models, settings, splits and seeds is a task; its result file is named by the digest of all its inputs. The
+/// table, its digest and the page depend neither on the number of workers nor on where tasks ran. The exit code is 1 if a task failed or a limit was
+/// missed.
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true, after_help = FILE_HELP)]
 pub(crate) struct Sweep {
@@ -63,7 +64,7 @@ pub(crate) struct SweepRun {
     /// Retry tasks that failed before
     #[arg(long)]
     pub(crate) retry_failed: bool,
-    /// Only tasks that match: a key of a task or its beginning, or terms such as "model = ridge and seed != 3"
+    /// Only matching tasks: those whose key begins with this text, or that meet terms such as "model = ridge and seed != 3"
     #[arg(long, value_name = "KEY|WHERE")]
     pub(crate) only: Option<String>,
     /// The engine that runs the tasks
@@ -87,7 +88,7 @@ pub(crate) enum SweepEngine {
 /// Operation on a sweep.
 #[derive(Debug, Subcommand)]
 pub(crate) enum SweepSubject {
-    /// Print means over tasks, grouped by any key that varies
+    /// Print means of a metric over tasks, grouped by any key that varies
     Show(SweepShow),
     /// Print the number of finished tasks, and the jobs of the scheduler
     Status(SweepFolderArgs),
@@ -118,7 +119,7 @@ pub(crate) struct SweepShow {
         default_value = "model"
     )]
     pub(crate) by: Vec<String>,
-    /// The metric
+    /// The metric whose means are printed
     #[arg(long, value_name = "METRIC", default_value = "mae")]
     pub(crate) metric: String,
     #[command(flatten)]

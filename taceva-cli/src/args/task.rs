@@ -6,7 +6,7 @@ use taceva_tasks::PublicProgram;
 
 use super::SettingArgs;
 
-/// Options that concern channels, which tasks do not have.
+/// Options for scores of channels, which cannot be combined with `--task`.
 const OF_CHANNELS: [&str; 9] = [
     "units",
     "periods",
@@ -19,14 +19,14 @@ const OF_CHANNELS: [&str; 9] = [
     "explain",
 ];
 
-/// Tasks to score in the place of channels.
+/// Tasks to score instead of channels.
 #[derive(Debug, Args)]
 pub(crate) struct TaskArgs {
-    /// Score a task in the place of channels, as NAME=KIND[:positive=CLASS][:names=A|B]: class, event, outcome, pose, place or depth; may be
-    /// repeated. The column NAME holds classes. `NAME.p.CLASS` of the predictions holds scores. A pose has NAME.x .y .z (mm) .qx .qy .qz .qw, and
-    /// takes thresholds of bins as NAME=pose:t=MM|MM:r=DEG|DEG. NAME=place:unit=m reads predictions in m. The truth of
-    /// NAME=depth[:unit=UNIT][:gate=MM] is a dataset, and the predictions are an array of maps (.npy, .npz, .h5). Refused with --task, as options of
-    /// channels: --units, --periods, --metrics, --independent, --sensor, --figures, --samples-out, --table, --explain
+    /// Score a task instead of channels, as NAME=KIND[:positive=CLASS][:names=A|B]: class, event, outcome, pose, place or depth; may be
+    /// repeated. The column NAME holds classes. The columns `NAME.p.CLASS` of the predictions hold scores of classes. A pose has the columns
+    /// NAME.x .y .z (mm) .qx .qy .qz .qw, and takes thresholds between its classes as NAME=pose:t=MM|MM:r=DEG|DEG. NAME=place:unit=m reads
+    /// predictions in m. The truth of NAME=depth[:unit=UNIT][:gate=MM] is a dataset, and the predictions are an array of maps (.npy, .npz, .h5).
+    /// Refused with --task: --units, --periods, --metrics, --independent, --sensor, --figures, --samples-out, --table, --explain
     #[arg(id = "task", long, value_name = "NAME=KIND", conflicts_with_all = OF_CHANNELS)]
     pub(crate) tasks: Vec<TaskSpec>,
     /// Column with the name of the trajectory, clip or object: intervals are over these names [default: point_id]
@@ -56,7 +56,7 @@ pub(crate) struct WindowArgs {
 }
 
 impl WindowArgs {
-    /// `settings`, with the settings of the window added.
+    /// `settings` with `window` and `stride` added, if they are given.
     pub(crate) fn on(&self, settings: &SettingArgs) -> SettingArgs {
         let window = self.window.map(|frames| format!("window={frames}"));
         let stride = self.stride.map(|frames| format!("stride={frames}"));

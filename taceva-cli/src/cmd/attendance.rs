@@ -11,7 +11,7 @@ use super::operator;
 use crate::args::Run;
 use crate::stderr;
 
-/// Page of a run and operator, each if available.
+/// Page and operator of a run, each `None` if absent.
 pub(super) struct Attended {
     page: Option<OnPage>,
     operator: Option<Box<Mutex<dyn Operator + Send>>>,

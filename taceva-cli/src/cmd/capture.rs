@@ -242,7 +242,7 @@ fn causes(state: &CaptureState) -> String {
 /// Readings below this force, N, mean that the sign is wrong, because a hand does not pull a gel.
 const PULLED_N: f64 = -0.3;
 
-/// Remedy for a reversed Fz: both lines for the rig file, and the check that decides between them.
+/// Remedy for a reversed Fz: the two possible `axes` of the rig file, and the push that decides between them.
 fn righted(spec: &LiveSpec) -> String {
     // Without a rig file, the transducer has the frame of the sensor.
     let axes = spec.force_axes();

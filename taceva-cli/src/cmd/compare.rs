@@ -93,7 +93,7 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Text on comparability, then all answers, wrapped to `width` characters if given.
+/// Text that states which results are comparable, then all answers, wrapped to `width` characters if given.
 fn answers(comparison: &Comparison, args: &Compare, width: Option<usize>) -> String {
     let narrow = width.map(|width| width.min(OVERVIEW_WIDTH));
     match (args.output.format, args.all) {

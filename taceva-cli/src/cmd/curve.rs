@@ -22,7 +22,7 @@ use crate::{exit, output};
 const POINT: &str = "point_id";
 /// Least reference value for relative errors, as a share of the greatest.
 const LEAST_SHARE: f64 = 0.2;
-/// Number of reference values with bands, without `--at`.
+/// Default number of reference values at which bands are computed.
 const BANDS: u8 = 5;
 
 pub(crate) fn run(args: &Curve, context: &Context) -> anyhow::Result<u8> {
@@ -57,7 +57,7 @@ impl Fitted {
     }
 }
 
-/// Fits the curve to the table.
+/// Fits the curve to the readings in the table of the arguments.
 pub(crate) fn fitted(args: &Curve, jobs: NonZeroUsize) -> anyhow::Result<Fitted> {
     let (table, digest) = read_table(&args.table, jobs)?;
     let [x, y] = [axis(&table, &args.x)?, axis(&table, &args.y)?];

@@ -49,7 +49,7 @@ fn time_of(rows: &[usize], dataset: &Dataset, jobs: usize) -> Option<Duration> {
     each.checked_mul(all)
 }
 
-/// Lines that state the cost.
+/// Lines that state the time and the disk space of the work, if they are large.
 fn lines(
     frames: usize,
     time: Option<Duration>,

@@ -33,7 +33,7 @@ pub(crate) fn run(args: &Gauge, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Computes the studies of the channels of the table.
+/// Computes a gauge study for each channel of the arguments.
 pub(crate) fn studies(args: &Gauge, jobs: NonZeroUsize) -> anyhow::Result<GaugeStudies> {
     let tolerance = args.tolerance.as_deref();
     let tolerance = tolerance.map(|written| Quantity::read("--tolerance", written));

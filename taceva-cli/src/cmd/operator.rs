@@ -33,7 +33,7 @@ pub(in crate::cmd) fn terminal(page: Option<Live>) -> Option<AtTerminal> {
     })
 }
 
-/// Text on the keys for each answer.
+/// Text that names the key for each answer.
 fn keys(question: &Question) -> String {
     match question {
         Question::Enable { robot, .. } => {
@@ -70,7 +70,7 @@ impl<I: Read + Waits> Operator for Terminal<I> {
 }
 
 impl<I: Read + Waits> Terminal<I> {
-    /// Prints `question` and waits for its answer, as [`Operator::ask`].
+    /// Prints `question` and waits for its answer, under the rules of [`Operator::ask`].
     fn answered(&mut self, question: &Question, cancel: &Cancel) -> Answer {
         let keys = keys(question);
         (self.say)(&format!("{question} ({keys})"));

@@ -1,4 +1,4 @@
-//! Fault of pictures that the estimator of a plugin makes: the estimator predicts the pixel values of the faulty picture from the original.
+//! Picture fault made by an estimator of a plugin, which predicts the pixel values of the faulty picture from the original.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, mpsc};
@@ -10,9 +10,9 @@ use taceva_core::{
 };
 use taceva_stress::{GEL_FAULTS, PictureFault, select};
 
-/// Longest time for one picture.
+/// Greatest accepted time of the estimator for one picture.
 const LONGEST: Duration = Duration::from_secs(1);
-/// Longest time for the first picture, which also starts the plugin.
+/// Greatest accepted time of the estimator for the first picture, for which the plugin also starts.
 const FIRST: Duration = Duration::from_secs(10);
 
 /// True if `name` is the name of a fault of this program, or of a list of such faults.
@@ -152,7 +152,7 @@ mod tests {
 
     use super::*;
 
-    /// Answer of a fault to each picture.
+    /// Reply of the test estimator to a picture.
     #[derive(Clone, Copy)]
     enum Answer {
         Darker,

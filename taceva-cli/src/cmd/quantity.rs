@@ -41,7 +41,7 @@ impl Quantity {
     }
 }
 
-/// Unit of one of the six channels; `None` for other names.
+/// Unit of the channel `name` if it is one of the six contact channels; `None` for other names.
 pub(super) fn unit_of_six(name: &str) -> Option<Unit> {
     let mut six = Channel::SIX.into_iter();
     let channel = six.find(|channel| channel.name() == name);

@@ -36,7 +36,7 @@ pub(super) struct Found {
     pub(super) missing: Vec<String>,
 }
 
-/// The single element of `all`, the sensors of the result `path`. Fails for several sensors or none.
+/// The only element of `all`, which has an element for each sensor of the result `path`. Fails for several sensors or none.
 pub(super) fn of_one_sensor<T>(path: &Path, mut all: Vec<T>) -> anyhow::Result<T> {
     match (all.pop(), all.len()) {
         (Some(one), 0) => Ok(one),

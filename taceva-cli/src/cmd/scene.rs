@@ -127,7 +127,7 @@ fn threshold(plan: &Plan, limits: &RigLimits) -> String {
     }
 }
 
-/// Text on depths that count from the first contact, which lies below the surface; `None` for depths from the surface.
+/// Text for a plan whose depths start at the first contact force, below the surface; `None` if depths start at the surface.
 fn late_zero(plan: &Plan) -> Option<String> {
     let contact = &plan.contact;
     (contact.depth_from.value == DepthOrigin::Contact).then(|| {

@@ -153,7 +153,7 @@ fn summarise(monitor: &Monitor, context: &Context) {
     }
 }
 
-/// Sentence on pictures without a change that are too few to exclude a change.
+/// Sentence for a watch with too few untouched pictures to decide if anything changed.
 fn undecided(monitor: &Monitor) -> String {
     let least = Monitor::LEAST_PICTURES;
     let few = "not enough untouched pictures to decide";
@@ -240,7 +240,7 @@ impl Viewer for Watcher {
     fn lost(&self, _: StreamFacts) {}
 }
 
-/// Progress that also ends with the last picture of a watcher.
+/// Progress that is also cancelled once the watcher has its last picture.
 struct Until<'a> {
     watcher: &'a Watcher,
     progress: &'a dyn Progress,

@@ -85,7 +85,7 @@ pub(super) fn note_reached(
     }
 }
 
-/// Number of points behind the score of `wanted` in words; empty for samples without contact points.
+/// Number of tested contact points of the score `wanted`, in words; empty for samples without contact points.
 fn points_of(report: &EvaluationReport, wanted: &WantedWidth) -> String {
     let scored = ScoredWidth::of(report, wanted).ok();
     let points = scored.map(|scored| scored.tested().points);
@@ -94,7 +94,7 @@ fn points_of(report: &EvaluationReport, wanted: &WantedWidth) -> String {
     })
 }
 
-/// Results of `path`.
+/// Evaluation reports of the result at `path`. Fails if the scene wants no width.
 fn reports(path: &Path, wanted: &[WantedWidth]) -> anyhow::Result<Vec<EvaluationReport>> {
     if wanted.is_empty() {
         return Err(Usage::error(format!(
@@ -129,7 +129,7 @@ fn partners<'a>(
     Ok(partners)
 }
 
-/// Result of the same sensor and the same first unit as `study`. The results of several stages of wear are in the order of the stages.
+/// Result for the sensor and the first unit of `study`. For a stage of wear, it is the result at the position of this stage.
 fn partner<'a>(
     study: &PlannedStudy,
     reports: &'a [EvaluationReport],
@@ -273,7 +273,7 @@ fn tested(study: &PlannedStudy) -> Option<TestedPoints> {
     })
 }
 
-/// Model behind `report` in words, with the model that `study` names if that model differs. `auto` and presets count as the model that they choose.
+/// Model of `report` in words, and the model that `study` names if it differs. `auto` and presets count as the model that they choose.
 fn model_of(report: &EvaluationReport, study: &PlannedStudy) -> String {
     let Some(fitted) = &report.provenance.model else {
         return String::new();

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use taceva_report::{Race, RacePoint, race};
 use taceva_study::bench::KernelBench;
 
-/// Draws the benchmark for all three scores. A line shows the lower bound of time.
+/// Draws the benchmark of kernels that compute MAE, R² and sMAPE together. A line shows the lower bound of time.
 pub(super) fn write(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
     let rows = bench.rows.iter().filter(|row| row.scores != "mae");
     let points = rows.map(|row| RacePoint {

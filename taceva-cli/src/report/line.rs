@@ -69,8 +69,8 @@ pub(super) fn flags(scores: &[Score]) -> Vec<String> {
         .collect()
 }
 
-/// Parameters in the definitions of scores with a value: `tolerance: within 0.05 of the truth, in the unit of the channel`. Different parameters name their
-/// channels.
+/// Parameters in the definitions of scores with a value: `tolerance: within 0.05 of the truth, in the unit of the channel`. If a parameter has
+/// several values, each value is followed by its channels.
 pub(super) fn limits(scores: &[Score]) -> Vec<String> {
     let of = |metric: &str, parameter: &str| {
         let own = scores.iter().filter(|score| score.metric == metric);

@@ -53,7 +53,7 @@ impl Page {
         Ok(page)
     }
 
-    /// Adds the errors with faults, one for each study in order.
+    /// Adds the results of tests with faults, one for each study in order.
     pub(crate) fn with_faults(mut self, faults: Vec<Option<FaultResult>>) -> Page {
         for (study, faults) in self.studies.iter_mut().zip(faults) {
             study.faults = faults;

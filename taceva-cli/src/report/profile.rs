@@ -82,7 +82,7 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
     Ok(())
 }
 
-/// Prints the verdicts on sensors with equal shares of correctly classified gratings. These verdicts use the spacing resolved in the samples.
+/// Prints verdicts for sensors with exactly the same share of correctly classified gratings, found from the spacings that they resolve.
 fn ties(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Result<()> {
     let shares = |report: &EvaluationReport| -> Vec<(String, u64)> {
         let lines = lines(&report.scores).into_iter();

@@ -1,4 +1,4 @@
-//! Tables of errors with faults.
+//! Tables of the errors of a model on inputs with faults.
 
 mod numbers;
 mod remarks;
@@ -204,7 +204,7 @@ fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> St
     line
 }
 
-/// Significant differences from the added error of the reference model, as text; empty if no difference is significant.
+/// Text for the channels in which the fault adds significantly less or more error than to the reference model; empty if there are none.
 fn verdicts(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> String {
     let sides = [("less", true), ("more", false)].into_iter();
     let words = sides.map(|(side, is_less)| {
@@ -268,7 +268,7 @@ fn spread(fault: &FaultReport, channels: &[&str]) -> String {
     }
 }
 
-/// Common reason for unknown shares of the error that new untouched inputs remove; `None` if a share is known or the reasons differ.
+/// Reason why no channel states the share of the error that a new untouched input removes; `None` if a channel does or the reasons differ.
 fn common_reason(fault: &FaultReport) -> Option<Undefined> {
     let reason = fault.recovers.values().next()?.reason?;
     let mut shares = fault.recovers.values();
@@ -300,7 +300,7 @@ fn by_channel(channels: &[&str], words: impl Fn(&str) -> Option<String>) -> Stri
     known.collect::<Vec<String>>().join(", ")
 }
 
-/// Number with four digits.
+/// Number as text, with the digits that reports show.
 pub(super) fn short(number: f64) -> String {
     FormattedValue::number(number, None).value
 }

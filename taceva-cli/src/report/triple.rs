@@ -41,8 +41,8 @@ pub(crate) fn triple(dataset: &Dataset, study: usize) -> anyhow::Result<Option<T
     }))
 }
 
-/// Row at the ninth decile of the positive normal forces, or of depths if there is no force, and its labels as text. The greatest value may be an outlier.
-/// Presses of gratings are skipped, because they show a relief instead of the usual tip.
+/// Row at the ninth decile of the positive normal forces, or of depths if there is no force, and its labels as text. The greatest value may be an
+/// outlier. Presses of gratings are skipped, because they show a relief instead of the usual tip.
 fn hard_press(table: &Table) -> Option<(usize, String)> {
     let channels = table.channels();
     let place = |name: &str| channels.iter().position(|channel| channel.name() == name);
@@ -80,7 +80,7 @@ fn stretched(mean: i64, [low, high]: [i64; 2]) -> i64 {
     (mean - low) * 255 / (high - low).max(1)
 }
 
-/// Difference, pressed minus untouched, in the scale of both pictures. Amplified at most eight times, without clipping.
+/// Difference of the pictures, pressed minus untouched, in the scale of both. Amplified at most eight times, without clipping.
 fn difference(
     pressed: &Small,
     untouched: &Small,

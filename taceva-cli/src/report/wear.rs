@@ -65,7 +65,7 @@ fn unit<'a>(report: &'a WearReport, channel: &str) -> &'a str {
     report.units.get(channel).copied().unwrap_or("")
 }
 
-/// Growth of an error, its limit and its first difference, in one sentence.
+/// Sentence on an error over the life of a gel: its growth, when it meets its limit, and the first recording that differs.
 fn growth(report: &WearReport, gel: &GelWear, name: &str, of: &ChannelWear) -> String {
     let (step, axis) = (report.step, report.by.unit());
     let mut words = match of.slope.value {

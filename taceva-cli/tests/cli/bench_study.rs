@@ -14,7 +14,7 @@ use crate::run::SMALL;
 use crate::support::Bench;
 use crate::sweep_scenes::refused::{LAB, REAL};
 
-/// The small scene with one metric, and so only calibration presses.
+/// Test folder with the small scene and the metric `mae` alone, which needs only calibration presses.
 fn with_small() -> Bench {
     let bench = Bench::new();
     let scene = format!("{SMALL}metrics = {{ want = [\"mae\"] }}\n");

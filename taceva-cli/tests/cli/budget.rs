@@ -10,7 +10,7 @@ use crate::support::Bench;
 /// Every format, each with its own escapes.
 const FORMATS: [&str; 5] = ["text", "json", "csv", "md", "tex"];
 
-/// Sources of the end gauge, GUM H.1.
+/// Budget file of the worked example GUM H.1, the calibration of an end gauge.
 const END_GAUGE: &str = r#"budget_version = 1
 measurand = "l"
 unit = "nm"
@@ -29,12 +29,12 @@ source = [
 ]
 "#;
 
-/// Budget of Fz with these sources, at 0.5 N.
+/// Budget file for Fz at 0.5 N with the text `sources`.
 fn of_force(sources: &str) -> String {
     format!("budget_version = 1\nmeasurand = \"Fz\"\nat = [\"0.5 N\"]\n{sources}")
 }
 
-/// A result of a drawn recording as `r.json`, with its samples.
+/// Test folder with the result `r.json` of a synthetic recording, and its samples.
 fn evaluated() -> Bench {
     let bench = Bench::new();
     bench.record("data", 32);
@@ -215,7 +215,7 @@ fn a_budget_of_a_result_holds_the_components_of_its_residuals_by_contact_point()
     }
 }
 
-/// Scores of repeats and of time as `r.json`, with samples under two lights.
+/// Test folder with a result `r.json` that has repeatability and drift, and its samples under two lights.
 fn scored() -> Bench {
     let bench = Bench::new();
     let result = r#"{"schema": "taceva.evaluation/1.0", "subject": {"sensor": "drawn", "source": "recorded"}, "metrics": {

@@ -12,10 +12,10 @@ use serde_json::Value;
 use crate::support::Bench;
 use forgery::{accept, edit, manifest, of_another_version, relist};
 
-/// Words behind a result, without the place of the bundle.
+/// Arguments that bundle a result, except the path of the bundle.
 const BUNDLE: &str = "bundle result.json --state result.state --truth truth.csv --pred pred.csv --draft --date 2026-11-28 --out";
 
-/// Both tables of presses on a grid, with predictions that are off by a multiple of `error`.
+/// Writes a table of truth and a table of predictions for presses on a grid. Each error of a prediction is proportional to `error`.
 fn tables(bench: &Bench, prediction: &str, error: f64) {
     let mut truth = "id,point_id,Px,Py,Pz,Fz\n".to_owned();
     let mut predicted = "id,Px,Py,Pz,Fz\n".to_owned();
@@ -37,7 +37,7 @@ fn tables(bench: &Bench, prediction: &str, error: f64) {
     bench.write(prediction, &predicted);
 }
 
-/// A result of two tables, with its state.
+/// Test folder with the result of `score` on two tables, and the state of that result.
 fn bench() -> Bench {
     let bench = Bench::new();
     tables(&bench, "pred.csv", 0.01);
@@ -51,7 +51,7 @@ fn score(bench: &Bench, prediction: &str, name: &str) {
     ));
 }
 
-/// Verification of the bundle `words`, with the expected exit code.
+/// Verifies the bundle with the arguments `words`, and expects the exit code `code`. Returns the JSON.
 fn verified(bench: &Bench, words: &str, code: i32) -> Value {
     let ran = bench.run(&format!("bundle verify {words} --format json -q"));
     assert_eq!(ran.code, code, "{words}\n{}{}", ran.out, ran.err);

@@ -7,7 +7,7 @@ use std::process::Stdio;
 use crate::support::Bench;
 use serde_json::Value;
 
-/// One sensor with a fitted model and gratings with predicted spacings, a few presses each.
+/// Scene of one sensor with a fitted model and classified gratings, a few presses each.
 const SMALL: &str = r#"scene_version = 1
 name = "small"
 seed = 7

@@ -19,7 +19,7 @@ fn said(output: &Output) -> String {
     String::from_utf8_lossy(&all).into_owned()
 }
 
-/// Three entries of two kinds, one of them used by a run, and a foreign file.
+/// Writes a cache with three entries of two kinds and a foreign file. A run uses one of the entries.
 fn laid_out(cache: &Path) {
     for (layout, kind, number, bytes) in [
         ("2", "fit", 1, 1000),

@@ -1,4 +1,4 @@
-//! Catalogues of bundles in a folder: added to, checked, compared, chosen from, shown.
+//! Catalogues of bundles in a folder: adding, checking, comparing, choosing and showing.
 
 mod export;
 mod findings;
@@ -28,7 +28,7 @@ fn press(row: u32) -> [f64; 4] {
     [x, y, depth, depth * (1.0 + 0.02 * x)]
 }
 
-/// Predictions that are off by a multiple of `error`.
+/// Table of predictions. Each error is proportional to `error`.
 fn predictions(error: f64) -> String {
     let mut predicted = "id,Px,Py,Pz,Fz\n".to_owned();
     for row in 0..120_u32 {
@@ -65,14 +65,14 @@ fn set_source(bench: &Bench, name: &str, source: &str) {
     }
 }
 
-/// Words that pack `NAME.json` into the folder `NAME`.
+/// Arguments that bundle `NAME.json` in the folder `NAME`.
 fn packed(name: &str, more: &str) -> String {
     format!(
         "bundle {name}.json --state {name}.state --truth truth.csv --pred {name}.csv --date 2026-11-28 --out {name} -q {more}"
     )
 }
 
-/// A bundle in the folder `name`, of recorded samples of the sensor `model`.
+/// Makes a bundle in the folder `name`, of recorded samples of the sensor `model`.
 fn bundle(bench: &Bench, name: &str, model: &str, error: f64) {
     score(bench, name, model, error);
     set_source(bench, name, "recorded");
@@ -95,7 +95,7 @@ fn names(bench: &Bench, folder: &str) -> Vec<String> {
     names
 }
 
-/// Replaces the manifest of the first bundle of an entry by a sealed one with this change, under its own digest.
+/// Changes the manifest of the first bundle in the entry `entry`. The new manifest has a valid seal and is stored under its own digest.
 fn forge(bench: &Bench, entry: &str, change: impl FnOnce(&mut Value)) {
     let rows = text(bench, &format!("entries/{entry}.toml"));
     let (_, rest) = rows.split_once("bundle = \"sha256:").expect("a bundle");

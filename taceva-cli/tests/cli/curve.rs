@@ -18,7 +18,7 @@ fn golden() -> Value {
     case.expect("the case").clone()
 }
 
-/// Ten readings of the golden case as `din.csv`.
+/// Test folder with `din.csv`, the ten readings of the example of DIN 32645.
 fn din() -> Bench {
     let golden = golden();
     let numbers = |axis: &str| golden["inputs"][axis].as_array().expect("numbers").clone();
@@ -29,7 +29,7 @@ fn din() -> Bench {
     bench
 }
 
-/// Six simulated points, each with its own offset, pressed with the same three forces, as `unit.csv`.
+/// Test folder with `unit.csv`: six simulated points, each with its own offset, pressed with the same three forces.
 fn points() -> Bench {
     let mut table = String::from("sample,point_id,Fz,Fz_predicted,source\n");
     let offsets = [0.05, -0.04, 0.03, -0.05, 0.04, -0.03];
@@ -51,7 +51,7 @@ fn points() -> Bench {
     bench
 }
 
-/// First figure of this name.
+/// First figure of `curve` for the quantity `quantity`.
 fn figure<'c>(curve: &'c Value, quantity: &str) -> &'c Value {
     let mut figures = curve["figures"].as_array().expect("a list").iter();
     let found = figures.find(|of| of["quantity"] == quantity);

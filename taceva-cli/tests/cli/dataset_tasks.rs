@@ -33,7 +33,7 @@ gel = "unknown"
 opaque = "unknown"
 "#;
 
-/// Twelve strokes of ten rows, of which five slip. A taxel senses slip, except in the last stroke, where it senses the contrary.
+/// Test folder with twelve strokes of ten rows, five of which are slip. One taxel indicates slip, and in the last stroke the absence of slip.
 pub(super) fn strokes() -> Bench {
     let bench = Bench::new();
     let mut table = String::from("fz,stroke,slip,c0,c1,c2,c3");

@@ -7,7 +7,7 @@ use serde_json::Value;
 use taceva_metrics::Better;
 use taceva_report::{BenchMachine, BenchRecording, ChannelError, Layout, ModelBench, ModelRow};
 
-/// One sensor, pressed a few times, with gratings and light.
+/// Scene of one sensor with gratings and light, and a few presses.
 const SCENE: &str = r#"scene_version = 1
 name = "small"
 seed = 7
@@ -25,7 +25,7 @@ name = "grid"
 sensor = { driver = "sim/magictac:reduction=16" }
 "#;
 
-/// Sign that must follow a name; `None` for descriptive metrics and for other names.
+/// Arrow that must follow the name of a metric; `None` for descriptive metrics and for other names.
 fn sign(name: &str) -> Option<String> {
     let sign = Better::of(name)?.beside("");
     (!sign.is_empty()).then_some(sign)
@@ -44,14 +44,14 @@ fn lines(text: &str, whence: &str) -> usize {
     found
 }
 
-/// The same for a Markdown table, whose names are escaped.
+/// Checks signs like [`lines`] in a Markdown table, whose names are escaped.
 fn markdown(text: &str, whence: &str) -> usize {
     let plain = text.replace(['\\', '|'], " ");
     let plain: String = plain.replace(" _", "_");
     lines(&plain, whence)
 }
 
-/// The same for a LaTeX table: each row with a name has a sign, unless it is descriptive.
+/// Checks signs in a LaTeX table: each row with a name has a sign, unless the metric is descriptive. Returns the number of signs.
 fn latex(text: &str, whence: &str) -> usize {
     // If metrics are columns, their heads have the signs.
     let heads = text.lines().take_while(|line| !line.contains("midrule"));
@@ -91,7 +91,7 @@ fn latex(text: &str, whence: &str) -> usize {
     found
 }
 
-/// Every link to the meaning of a metric is followed by the sign.
+/// Checks that an arrow follows every link to the meaning of a metric. Returns the number of links with an arrow.
 fn links(text: &str, whence: &str) -> usize {
     let mut found = 0;
     for part in text.split("<a class=\"metric\"").skip(1) {
@@ -108,7 +108,7 @@ fn links(text: &str, whence: &str) -> usize {
     found
 }
 
-/// The column `better` of a table for programs agrees with the column `metric`.
+/// Checks the column `better` of a CSV table against its column `metric`. Returns the number of rows with a direction.
 fn csv(text: &str, whence: &str) -> usize {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let head = reader.headers().expect("a head").clone();

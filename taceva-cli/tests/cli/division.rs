@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::support::{Bench, SAMPLES};
 
-/// A stream of sixteen taxels at 50 Hz, unrelated to the force beside them.
+/// Stream of sixteen taxels at 50 Hz, which are unrelated to the force in the same rows.
 const STREAM: &str = "../crates/studies/evaluate/tests/data/division/tax.csv";
 
 const MAP: &str = r#"map_version = 2

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 const IMPORT: &str = "import lab --map map.toml";
 
-/// The folder `lab` in two: `first` with the first seven points, `second` with the last three, and a dataset `data` of the first.
+/// Splits the rows of `lab` into the folders `first` (seven points) and `second` (three points), and imports `first` as the dataset `data`.
 pub(crate) fn halves() -> Bench {
     let bench = Bench::new();
     bench.lab();

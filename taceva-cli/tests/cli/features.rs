@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use crate::support::Bench;
 
-/// A gel without markers, with little change of light.
+/// Scene of a gel without markers, whose light changes little.
 const PRESSED: &str = r#"
 scene_version = 1
 name = "press"

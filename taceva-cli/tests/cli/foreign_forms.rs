@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::support::Bench;
 
-/// The bench with the recording `name` of the repository in the folder `lab`, and its map beside it.
+/// Test folder with a copy of the repository's recording `name` in `lab`, and its map `map.toml`.
 fn bench(name: &str) -> Bench {
     let bench = Bench::new();
     let own = Path::new(env!("CARGO_MANIFEST_DIR"))

@@ -29,7 +29,7 @@ gel = "unknown"
 opaque = "unknown"
 "#;
 
-/// Ten grasps of five objects: the force rises in each from another start, and half of the taxels sense it.
+/// Test folder with ten grasps of five objects. The force rises during each grasp from another start value. Half of the taxels respond to the force.
 fn grasps(columns: &[&str]) -> Bench {
     let bench = Bench::new();
     let mut table = String::from("fz,grasp,object");

@@ -3,7 +3,7 @@
 use crate::support::Bench;
 use serde_json::Value;
 
-/// Three boards of each relief, pressed four times.
+/// Scene with three boards of each kind of grating, pressed four times.
 const SCENE: &str = r#"scene_version = 1
 name = "gratings"
 seed = 7

@@ -74,13 +74,13 @@ fn follow(heading: &str, folder: &Path) -> PathBuf {
     here
 }
 
-/// Folder of the toolchain, for a user with another home.
+/// Folder of rustup of the user who runs the tests, for commands with another home folder.
 fn rustup() -> PathBuf {
     let home = || PathBuf::from(env::var_os("HOME").unwrap_or_default()).join(".rustup");
     env::var_os("RUSTUP_HOME").map_or_else(home, PathBuf::from)
 }
 
-/// True if the program lists the plugin `id` in `folder` as one that opens, in this process and in its child.
+/// True if `taceva plugin list` lists the plugin `id` of `folder`.
 fn is_listed(folder: &Path, id: &str) -> bool {
     let listed = Command::new(env!("CARGO_BIN_EXE_taceva"))
         .args(["plugin", "list", "--plugin-dir"])

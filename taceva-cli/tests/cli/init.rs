@@ -1,4 +1,4 @@
-//! Files to edit, started by questions.
+//! `taceva init`: initial files, written from the answers to questions.
 
 use std::fs;
 
@@ -8,7 +8,7 @@ fn read(bench: &Bench, name: &str) -> String {
     fs::read_to_string(bench.path(name)).expect(name)
 }
 
-/// A lab's folder whose table states neither unit nor sensor.
+/// Test folder with a lab's folder whose table states neither unit nor sensor.
 fn lab() -> Bench {
     let bench = Bench::new();
     bench.lab();

@@ -1,4 +1,4 @@
-//! From a lab's folder to scores, as the README describes it.
+//! Test of the README's path from a lab's folder to scores.
 
 use crate::support::{Bench, SAMPLES, leftovers};
 use serde_json::Value;

@@ -3,7 +3,7 @@
 
 use crate::support::Bench;
 
-/// Thirty places, pressed four times each.
+/// Scene with thirty contact points, pressed four times each.
 const SCENE: &str = r#"scene_version = 1
 name = "library"
 seed = 7

@@ -100,7 +100,7 @@ Pz_max_mm = 1.0
 Fz_max_N = 2.0
 "#;
 
-/// Scene for this rig file.
+/// Scene for the rig file [`RIG`].
 const GEL: &str = "scene_version = 1\nname = \"gel\"\n[model]\nname = \"ridge\"\n[protocol.calibration]\npoints = 60\n";
 
 #[test]

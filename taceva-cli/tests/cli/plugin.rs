@@ -4,7 +4,7 @@ use std::fs;
 
 use crate::support::Bench;
 
-/// A folder `plugins` with a lamp for each name; its invalid library is never loaded.
+/// Test folder with a lamp plugin in `plugins` for each name. Their invalid libraries are never loaded.
 fn with_plugins(names: &[&str]) -> Bench {
     let bench = Bench::new();
     for name in names {

@@ -1,4 +1,4 @@
-//! `taceva plugin check` on a plugin in C: a correct one passes, a faulty one fails the check of its fault.
+//! `taceva plugin check` on a plugin in C: a correct plugin passes, and a faulty plugin fails the check for its fault.
 
 use std::fs;
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::process::Command;
 use crate::support::Bench;
 use taceva_needs::{Need, skip};
 
-/// A bench with the plugin in `plugins/fixture`, built with `macros`; `None`, with a message, without a C compiler.
+/// Test folder with the plugin in `plugins/fixture`, built with `macros`. `None`, with a message, without a C compiler.
 fn with_plugin(macros: &[&str]) -> Option<Bench> {
     let bench = Bench::new();
     let plugins = Path::new(env!("CARGO_MANIFEST_DIR")).join("../plugins");
@@ -70,7 +70,7 @@ fn checks_are_reported_as_a_runner_of_tests_does() {
     assert_eq!(bench.run(nothing).code, 2);
 }
 
-/// A bench with the plugin of real devices, whose stamps have the `macros`, and `first.toml` with its transducer.
+/// Test folder with the plugin built with `macros`, whose devices claim to be real, and the rig file `first.toml` with its transducer.
 fn with_real_plugin(macros: &[&str]) -> Option<Bench> {
     let real = ["EYE_SOURCE=\"real\"", "WRIST_SOURCE=\"real\""];
     let bench = with_plugin(&[&real[..], macros].concat())?;

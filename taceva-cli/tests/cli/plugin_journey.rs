@@ -7,7 +7,7 @@ use std::fs;
 use crate::support::Bench;
 use serde_json::Value;
 
-/// The sensor over a simulated gel: its pictures show no press, the forces are those of the gel.
+/// Scene with a sensor of a plugin over a simulated gel. Its pictures do not show the presses, but the forces are those of the gel.
 const EYE: &str = r#"scene_version = 1
 name = "eye"
 seed = 7

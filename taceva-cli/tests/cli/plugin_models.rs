@@ -10,7 +10,7 @@ use crate::support::Bench;
 
 const MODEL: &str = "org.example.nearest/nearest";
 
-/// A recording, and the estimator of the template, built without a network.
+/// Test folder with the recording `set`, and the estimator of the template, built without a network.
 fn with_estimator() -> Bench {
     let bench = Bench::new();
     bench.record("set", 16);

@@ -1,4 +1,4 @@
-//! Names for models with settings, and the model `auto`.
+//! Presets, which are names for a model with its settings, and the model `auto`.
 
 use std::fs;
 use std::path::Path;
@@ -63,7 +63,7 @@ fn a_preset_sees_no_more_cells_than_frames_have_pixels_where_its_model_would_ref
     bench.refused(&format!("evaluate data --model cnn {short}"), 3, "128×96");
 }
 
-/// A few presses of a gel with coloured lamps.
+/// Scene with a few presses of a gel with coloured lamps.
 const COLORED: &str = r#"
 scene_version = 1
 name = "colored"
@@ -135,7 +135,7 @@ fn a_model_left_open_says_what_was_tried_and_what_a_network_would_have_taken() {
     );
 }
 
-/// Input of the small network, in gray or in colour. All other models see 32×32 gray cells of it, of 4×3 pixels each.
+/// Frames of 128×96 pixels, the input of the small network. All other models read 32×32 gray cells of 4×3 pixels each.
 const fn closer(format: PixelFormat) -> FrameInfo {
     FrameInfo {
         width: 128,
@@ -153,7 +153,7 @@ fn striped(is_labelled: bool, x: u32) -> Vec<u32> {
     }]
 }
 
-/// The same in colour: more red and blue and less green, or the reverse, at equal brightness.
+/// Values of a colour pixel. The labelled half has more red and blue and less green than the other half, at equal brightness.
 fn colored(is_labelled: bool, _: u32) -> Vec<u32> {
     match is_labelled {
         true => vec![130 + 34, 130 - 28, 130 + 55],
@@ -161,7 +161,7 @@ fn colored(is_labelled: bool, _: u32) -> Vec<u32> {
     }
 }
 
-/// A recording of pictures whose labelled half differs as `pixel` states.
+/// Records pictures in which one half is labelled. `pixel` returns the values of a pixel in either half.
 fn record_halves(path: &Path, info: FrameInfo, pixel: fn(bool, u32) -> Vec<u32>) {
     let sensor = SensorFacts::new("drawn").with_serial("1").with_gel("1");
     let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, sensor);

@@ -1,4 +1,4 @@
-//! Numbers of a run that are recomputed from its files, and the unit and the models that it names.
+//! Numbers of a run, recomputed from its files, and the sensor unit and the models that the run names.
 
 use std::fs;
 
@@ -7,7 +7,7 @@ use taceva_results::Samples;
 
 use crate::support::Bench;
 
-/// Three boards of each relief, pressed four times, and the surfaces of two units.
+/// Scene with two units of a sensor, and three boards of each kind of grating, pressed four times.
 const SCENE: &str = r#"scene_version = 1
 name = "recomputed"
 seed = 7

@@ -1,4 +1,4 @@
-//! Hints for names in a wrong place.
+//! Hints for names that the user wrote in the wrong place.
 
 use crate::support::Bench;
 

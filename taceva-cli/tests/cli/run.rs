@@ -18,7 +18,7 @@ use std::path::Path;
 use crate::support::Bench;
 use serde_json::Value;
 
-/// One sensor, every part of the protocol, a few presses each.
+/// Scene of one sensor with every part of the protocol, a few presses each.
 pub(crate) const SMALL: &str = r#"scene_version = 1
 name = "small"
 seed = 7

@@ -1,4 +1,4 @@
-//! The published schemas, and the part of JSON Schema that they use.
+//! Published JSON schemas, and a checker for the keywords that they use.
 
 use serde_json::Value;
 
@@ -12,7 +12,7 @@ pub(crate) fn check(name: &str, found: &Value) {
     }
 }
 
-/// Keywords that are checked, or that only describe.
+/// Keywords of JSON Schema that the test checks, and keywords that only describe.
 const KNOWN: [&str; 15] = [
     "$schema",
     "$id",

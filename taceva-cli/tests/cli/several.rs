@@ -7,7 +7,7 @@ use serde_json::Value;
 
 const FIVE: [&str; 5] = ["monday", "tuesday", "wednesday", "thursday", "friday"];
 
-/// Five recordings of one sensor, each with ten points of the same names.
+/// Test folder with five recordings of one sensor, each with the same names of ten points, and their names.
 fn week() -> (Bench, String) {
     let bench = Bench::new();
     for (name, noise) in FIVE.into_iter().zip(0..) {
@@ -246,7 +246,7 @@ fn a_model_of_several_is_scored_on_their_test_part_on_others_whole_and_on_some_o
     );
 }
 
-/// A copy of the dataset `name`, byte for byte.
+/// Copies the dataset `name` to `to`, byte for byte.
 fn copy(bench: &Bench, name: &str, to: &str) {
     let copied = std::process::Command::new("cp")
         .arg("-r")

@@ -3,7 +3,7 @@
 use crate::support::Bench;
 use serde_json::Value;
 
-/// Rows of presses on a grid: both tables, header first.
+/// Table of truth and table of predictions of presses on a grid, with a header.
 fn tables(rows: std::ops::Range<u32>) -> [String; 2] {
     let mut truth = "id,point_id,Px,Py,Pz,Fz\n".to_owned();
     let mut prediction = "id,Px,Py,Pz,Fz\n".to_owned();

@@ -6,7 +6,7 @@ use crate::support::Bench;
 use serde_json::Value;
 use taceva_dataset::Dataset;
 
-/// Presses whose predictions are scored in many ways, and pictures of an idle gel that no metric reads.
+/// Scene whose predictions are scored in many ways, and whose pictures of an idle gel are read by no metric.
 const SCENE: &str = r#"scene_version = 1
 name = "shared"
 seed = 7

@@ -1,4 +1,4 @@
-//! `taceva show`: what a dataset holds, and what measured it.
+//! `taceva show`: the content of a dataset, and the instruments that measured it.
 
 use crate::support::Bench;
 

@@ -239,7 +239,7 @@ fn tables_without_a_training_part_are_measured_by_the_mean_of_truth_and_say_so()
     );
 }
 
-/// One translucent sensor, under several lights.
+/// Scene of one translucent sensor under several lights.
 const LIGHT: &str = r#"scene_version = 1
 name = "light"
 seed = 7

@@ -14,7 +14,7 @@ use taceva_needs::{Need, skip};
 
 use crate::support::Bench;
 
-/// A model of the recording `seen`, and the recording `unseen`.
+/// Test folder with the recordings `seen` and `unseen`, and a model fitted on `seen`.
 fn bench() -> Bench {
     let bench = Bench::new();
     bench.record_with_noise("seen", 24, 0);
@@ -263,7 +263,7 @@ fn a_fault_of_a_plugin_is_tested_by_its_key_beside_the_others() {
     assert_eq!(alone["list"]["name"], "fog");
 }
 
-/// Builds the example in C in the folder `fog` as its page says, with the words `from` of its source replaced by `to`. False without a C compiler.
+/// Builds the C example in the folder `fog` with the commands of its README, with `from` in its source replaced by `to`. False without a C compiler.
 #[cfg(target_os = "linux")]
 fn builds_in_c(bench: &Bench, from: &str, to: &str) -> bool {
     if let Err(error) = Command::new("cc").arg("--version").output() {

@@ -1,4 +1,4 @@
-//! A drawn lab's folder, and the program, run as by a user.
+//! Test folder with a synthetic recording of a lab, in which the program runs as by a user.
 
 pub(crate) mod emulated;
 pub(crate) mod list;
@@ -13,7 +13,7 @@ use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readi
 use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 use tempfile::TempDir;
 
-/// Samples of the drawn folder: ten points, six presses each.
+/// Number of samples of the synthetic recording: ten points, six presses each.
 pub(crate) const SAMPLES: u32 = 60;
 
 /// A temporary folder to work in.
@@ -23,7 +23,7 @@ pub(crate) struct Bench {
     has_cache: bool,
 }
 
-/// Outcome of the program.
+/// Exit code and output of a run of the program.
 pub(crate) struct Ran {
     pub(crate) code: i32,
     pub(crate) out: String,
@@ -38,7 +38,7 @@ impl Bench {
         }
     }
 
-    /// The same with the dataset `data` of the drawn folder.
+    /// Test folder with a lab's folder, imported as the dataset `data`.
     pub(crate) fn imported() -> Bench {
         let bench = Bench::new();
         bench.lab();
@@ -46,7 +46,7 @@ impl Bench {
         bench
     }
 
-    /// The same with a cache. Without one, every run executes all of its stages.
+    /// Test folder whose runs use a cache. Without a cache, every run executes all of its stages.
     pub(crate) fn with_cache() -> Bench {
         Bench {
             has_cache: true,
@@ -64,7 +64,7 @@ impl Bench {
         fs::write(path, text).expect("written");
     }
 
-    /// The program, ready to start in this folder.
+    /// Command `taceva WORDS` in the test folder, not yet started.
     pub(crate) fn command(&self, words: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_taceva"));
         command
@@ -113,19 +113,19 @@ impl Bench {
         }
     }
 
-    /// Runs, and expects success.
+    /// Runs `taceva WORDS`, and expects success.
     pub(crate) fn ok(&self, words: &str) -> String {
         let ran = self.run(words);
         assert_eq!(ran.code, 0, "taceva {words}\n{}{}", ran.out, ran.err);
         ran.out
     }
 
-    /// Runs with JSON output, and expects success.
+    /// Runs `taceva WORDS` with JSON output, and expects success.
     pub(crate) fn json(&self, words: &str) -> serde_json::Value {
         serde_json::from_str(&self.ok(&format!("{words} --format json -q"))).expect("JSON")
     }
 
-    /// Expects `code`, one line on standard error that holds `message`, and nothing on standard output.
+    /// Runs `taceva WORDS -q`; expects the exit code `code`, `message` on standard error, and nothing on standard output.
     pub(crate) fn refused(&self, words: &str, code: i32, message: &str) {
         let ran = self.run(&format!("{words} -q"));
         assert_eq!(ran.code, code, "taceva {words}\n{}{}", ran.out, ran.err);
@@ -137,7 +137,7 @@ impl Bench {
         assert_eq!(ran.out, "", "taceva {words}");
     }
 
-    /// Runs the line in `text` that allows what was refused, in a shell, as if pasted by a user.
+    /// Runs the command that `text` states after `allow it: `, in a shell, as if pasted by a user.
     pub(crate) fn paste(&self, text: &str) -> Ran {
         let (_, line) = text.rsplit_once("allow it: ").expect(text);
         self.shell(line.lines().next().expect("a line").trim())
@@ -172,7 +172,7 @@ impl Bench {
         self.build_plugin(name);
     }
 
-    /// The plugin in `examples/plugins/NAME`, built as its README says.
+    /// Builds the plugin in `examples/plugins/NAME` as its README says.
     pub(crate) fn make_example(&self, kind: &str, name: &str) {
         self.ok(&format!("plugin new {kind} {name}"));
         let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/plugins");
@@ -197,23 +197,23 @@ impl Bench {
         assert!(built.status.success(), "{said}");
     }
 
-    /// A recording at `name` that was closed without a sample.
+    /// Records a dataset at `name` without a sample.
     pub(crate) fn record_nothing(&self, name: &str) {
         let recorder = Recorder::create(&self.path(name), &spec()).expect("a new recording");
         recorder.close().expect("closed");
     }
 
-    /// A recording of pictures of `side` pixels at `name`.
+    /// Records a dataset at `name`, with pictures of `side` × `side` pixels.
     pub(crate) fn record(&self, name: &str, side: u32) -> PathBuf {
         self.record_with_noise(name, side, 0)
     }
 
-    /// The same with its own noise, so that it shares no frame with those of another `noise` below 7.
+    /// Records a dataset like [`record`](Bench::record), with its own noise. Recordings of different `noise` below 7 share no frame.
     pub(crate) fn record_with_noise(&self, name: &str, side: u32, noise: u32) -> PathBuf {
         self.record_as(name, side, noise, &spec())
     }
 
-    /// The same by this `operator`.
+    /// Records a dataset like [`record`](Bench::record), whose operator is `operator`.
     pub(crate) fn record_by(&self, name: &str, side: u32, operator: &str) -> PathBuf {
         let mut spec = spec();
         let setting = ("operator".to_owned(), operator.to_owned());
@@ -239,7 +239,7 @@ impl Bench {
         path
     }
 
-    /// A recording of depths at `name`, each counted from a fitted surface with this standard uncertainty.
+    /// Records a dataset of depths at `name`, each from a fitted surface whose zero has the standard uncertainty `zero_u_mm`.
     pub(crate) fn record_depths(&self, name: &str, zero_u_mm: f64) {
         let channels = Channels::new([Channel::PZ]).expect("one");
         let spec = RecordingSpec::new(spec().facts, channels);
@@ -256,7 +256,7 @@ impl Bench {
         recorder.close().expect("closed");
     }
 
-    /// A lab's folder `lab` with `labels.csv`, `pictures/` and `map.toml`.
+    /// Writes a lab's folder `lab` with `labels.csv`, `pictures/` and `map.toml`.
     pub(crate) fn lab(&self) {
         let recording = self.record("drawn", 32);
         let dataset = Dataset::open(&recording).expect("a dataset");
@@ -280,7 +280,7 @@ impl Bench {
     }
 }
 
-/// Facts and channels of a drawn recording.
+/// Facts and channels of a synthetic recording.
 fn spec() -> RecordingSpec {
     let sensor = SensorFacts::new("drawn")
         .with_serial("1")
@@ -319,13 +319,13 @@ gel = "unknown"
 opaque = true
 "#;
 
-/// Position and brightness of the blob.
+/// Labels of sample `number`: position of the drawn blob, mm, and its brightness, which stands for a force, N.
 fn label(number: u32) -> (f64, f64) {
     let mixed = f64::from(number * 37 % SAMPLES) / f64::from(SAMPLES);
     (8.0 * (mixed - 0.5), 0.2 + f64::from(number % 6) * 0.3)
 }
 
-/// A blob at its position, as bright as the force.
+/// Picture of sample `number`: a blob at its labelled position, as bright as the labelled force.
 fn draw((number, noise): (u32, u32), side: u32) -> Frame {
     let (place, force) = label(number);
     let middle = f64::from(side) / 2.0 + place * f64::from(side) / 12.0;

@@ -21,14 +21,14 @@ use crate::support::Bench;
 use crate::support::sweeps::SWEEP;
 use store::WEEK;
 
-/// A folder with two recordings and the file of a sweep over both.
+/// Test folder with two recordings, and the file of a sweep over both.
 fn week() -> Bench {
     let bench = Bench::new();
     WEEK.put(&bench.path("."));
     bench
 }
 
-/// Writes the file of a sweep of eight tasks, with the replacements `changed`.
+/// Writes the file of a sweep of eight tasks, after the replacements `changed` (old text, new text).
 fn small(bench: &Bench, changed: &[(&str, &str)]) {
     let mut text = SWEEP
         .replace("\"1-3\"", "[1]")

@@ -14,14 +14,14 @@ use crate::support::sweeps::{TINY, TINY_SWEEP as SWEEP};
 /// Folder of the recording of the scene.
 const RECORDING: &str = "which.sweep/scenes/tiny/recordings/1-tiny";
 
-/// The folder of the sweep, scored.
+/// Folder of the finished sweep.
 static SCORED: LazyLock<Snapshot> = LazyLock::new(|| {
     let bench = tiny();
     bench.ok("sweep which.toml -q");
     Snapshot::of(&bench.path("which.sweep"))
 });
 
-/// The scene and its sweep, not started.
+/// Test folder with the scene and the file of a sweep over it, which has not run.
 fn tiny() -> Bench {
     let bench = Bench::new();
     bench.write("tiny.toml", TINY);
@@ -29,19 +29,19 @@ fn tiny() -> Bench {
     bench
 }
 
-/// The same, acquired and scored.
+/// Test folder with the scene, the file of its sweep, and the finished sweep.
 fn scored() -> Bench {
     let bench = tiny();
     SCORED.put(&bench.path("which.sweep"));
     bench
 }
 
-/// Final bytes of the sweep in `folder`.
+/// Bytes of the tables and the page of the sweep in `folder`.
 fn bytes(bench: &Bench, folder: &str) -> Vec<Vec<u8>> {
     crate::support::sweeps::bytes(bench, folder)
 }
 
-/// Final bytes of an uninterrupted sweep.
+/// Bytes of the tables and the page of an uninterrupted sweep.
 fn reference() -> Vec<Vec<u8>> {
     bytes(&scored(), "which.sweep")
 }

@@ -1,4 +1,4 @@
-//! Shards of tables, in any number, here and by a list, give the scores of one pass, byte for byte.
+//! Shards of tables give the scores of one pass, byte for byte, in any number, in one process or by a list of tasks.
 
 mod drawn;
 mod joined;
@@ -12,7 +12,7 @@ use crate::support::Bench;
 const CSV: &str = "--truth truth.csv --pred pred.csv --sensor sensor.toml";
 const PARQUET: &str = "--truth truth.parquet --pred pred.parquet --sensor sensor.toml";
 
-/// The scores of one pass, and its state.
+/// Scores tables in one pass. Returns the scores and the state.
 fn one_pass(bench: &Bench, tables: &str) -> [String; 2] {
     let scores = bench.ok(&format!(
         "score {tables} --state-out whole.state --force --format json -q"
@@ -23,7 +23,7 @@ fn one_pass(bench: &Bench, tables: &str) -> [String; 2] {
     ]
 }
 
-/// The same from this many shards, merged in reverse order.
+/// Scores tables in `shards` shards, and merges them in reverse order. Returns the scores and the state.
 fn joined(bench: &Bench, tables: &str, shards: u32) -> [String; 2] {
     let mut states = Vec::new();
     for number in 1..=shards {

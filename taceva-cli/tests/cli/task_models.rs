@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::dataset_tasks::{MAP, estimate, strokes};
 use crate::support::Bench;
 
-/// Twelve strokes whose signal rises by one at each row that slips, from another level in each stroke.
+/// Test folder with twelve strokes. A taxel rises by one in each row with slip; its start value differs between strokes.
 fn rising_strokes() -> Bench {
     let bench = Bench::new();
     let mut table = String::from("fz,stroke,slip,c0,c1,c2,c3");
@@ -124,7 +124,7 @@ fn auto_takes_a_classifier_by_the_validation_part_and_states_the_errors_of_all()
     bench.json("evaluate data --task slip --model auto --no-cache");
 }
 
-/// Ten strokes of twelve rows on 8 × 8 taxels, of which the left half rises at a slip.
+/// Test folder with ten strokes of twelve rows on 8 × 8 taxels. The taxels of the left half rise at a slip.
 fn broad_strokes() -> Bench {
     let bench = Bench::new();
     let mut table = String::from("fz,stroke,slip");
@@ -186,7 +186,7 @@ fn a_network_learns_classes_and_its_probabilities_are_scored_by_evaluate_and_by_
     assert!(area.expect("a number") > 0.95, "{report:#}");
 }
 
-/// Eight strokes of eight rows in which an object moves along x and y and turns about z, as three taxels sense.
+/// Test folder with eight strokes of eight rows. An object moves along x and y and turns about z; three taxels measure these motions.
 fn moving_strokes() -> Bench {
     let bench = Bench::new();
     let mut table = String::from("fz,stroke,x,y,z,qx,qy,qz,qw,c0,c1,c2,c3");

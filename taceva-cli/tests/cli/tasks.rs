@@ -13,14 +13,14 @@ use serde_json::Value;
 
 use crate::support::Bench;
 
-/// Command for the tables of [`slip`].
+/// Arguments that score the tables which [`slip`] writes.
 const SLIP: &str =
     "score --truth truth.csv --pred pred.csv --task slip=event:positive=slip --cluster stroke";
 
-/// Frames of a stroke, 40 ms apart: slip from the fifth on.
+/// Number of frames of a stroke, 40 ms apart. Slip begins at the fifth frame.
 const FRAMES: u32 = 10;
 
-/// Six strokes. The predicted score rises one frame late, and the last stroke is missed.
+/// Writes tables of six strokes. The predicted score of slip rises one frame late, and stays low in the last stroke.
 fn slip(bench: &Bench) {
     let mut truth = "id,stroke,t_s,slip\n".to_owned();
     let mut prediction = "id,slip.p.no_slip,slip.p.slip\n".to_owned();

@@ -26,7 +26,7 @@ gel = "unknown"
 opaque = true
 "#;
 
-/// Presses on four taxels: a force, and voltages in mV that follow it with a little noise. The first rows are untouched.
+/// Table of presses on four taxels: a force, and voltages in mV that rise with the force and have a little noise. The first rows are untouched.
 fn table() -> String {
     let mut state = 7_u32;
     let mut draw = || {
@@ -99,7 +99,7 @@ fn taxels_are_imported_checked_fitted_and_evaluated() {
 #[path = "../../examples/draw_taxels.rs"]
 mod draw_taxels;
 
-/// The examples of taxel sensors, as their README describes.
+/// Checks the examples of taxel sensors against the program that draws them.
 #[test]
 fn the_drawn_examples_are_what_their_program_draws_and_are_evaluated() {
     // A separate program; only its tables are needed here.

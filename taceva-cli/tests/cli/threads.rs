@@ -8,10 +8,10 @@ use std::process::{Command, Output};
 
 use crate::support::Bench;
 
-/// A user without processes, because limits do not apply to root.
+/// Id of a user who has no other processes. Limits do not apply to root.
 const NOBODY: u32 = 65_534;
 
-/// The program at a path from which every user may start it.
+/// Copies the program to a path from which every user may start it.
 fn program(bench: &Bench) -> PathBuf {
     let path = bench.path("taceva");
     fs::copy(env!("CARGO_BIN_EXE_taceva"), &path).expect("copied");

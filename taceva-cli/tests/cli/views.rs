@@ -1,10 +1,10 @@
-//! A gripper from its folder to its scores: two pictures a row, of which a model uses one or both.
+//! Recording of a gripper, from a folder to scores: each row has two pictures, of which a model uses one or both.
 
 use std::fs;
 
 use crate::support::{Bench, MAP, SAMPLES};
 
-/// The drawn lab with a second finger that sees every picture mirrored.
+/// Test folder with a lab's folder of a gripper: the pictures of the second finger are mirrored pictures of the first.
 fn gripper() -> Bench {
     let bench = Bench::new();
     bench.lab();

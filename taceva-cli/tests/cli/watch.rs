@@ -10,7 +10,7 @@ use crate::support::Bench;
 
 const SIDE: u32 = 16;
 
-/// A picture of this light and force, with the noise of `number`.
+/// Picture at the light level `light` and the force `force`, with the noise of the seed `number`.
 fn picture(light: f64, force: f64, number: u64) -> Frame {
     let draws = Draws::new(number);
     let info = FrameInfo {
@@ -33,7 +33,7 @@ fn picture(light: f64, force: f64, number: u64) -> Frame {
     Frame::new(info, (0..SIDE * SIDE).map(number_at).collect()).expect("whole")
 }
 
-/// A recording of 40 presses and `rests` untouched pictures.
+/// Records 40 presses and `rests` untouched pictures.
 fn record(bench: &Bench, name: &str, light: f64, rests: u64, first: u64) {
     let sensor = SensorFacts::new("drawn").with_serial("1").with_gel("1");
     let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, sensor);
@@ -60,7 +60,7 @@ fn record(bench: &Bench, name: &str, light: f64, rests: u64, first: u64) {
     recorder.close().expect("closed");
 }
 
-/// A calibration with 260 untouched pictures, and its model.
+/// Test folder with a calibration recording of 260 untouched pictures, and a model fitted on it.
 fn bench() -> Bench {
     let bench = Bench::new();
     record(&bench, "monday", 100.0, 260, 0);

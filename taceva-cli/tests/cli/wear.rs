@@ -7,7 +7,7 @@ use taceva_sim::{Model, Parameters};
 
 use crate::support::Bench;
 
-/// A model of the recording `seen`, and recordings after 0, 1000 and 2000 presses.
+/// Test folder with a model fitted on `seen`, and recordings after 0, 1000 and 2000 presses.
 fn bench() -> Bench {
     let bench = Bench::new();
     bench.record_with_noise("seen", 24, 0);
@@ -180,7 +180,7 @@ fn recordings(bench: &Bench, folder: &str) -> Vec<String> {
     paths
 }
 
-/// A scene of a gel whose table states how fast it ages: by half of its stiffness in 43 presses of 1 N.
+/// Scene of a gel with a fast rate of ageing: 43 presses of 1 N halve its stiffness.
 fn loaded(sensor: &str, seed: u32, protocol: &str) -> String {
     let table = Parameters::ageing_table(Model::GelSight.table()).expect("a table");
     let rate = "value = 0.02, unit = \"1/kN\"";

@@ -7,12 +7,12 @@ use crate::support::{Bench, MAP, leftovers};
 use taceva_core::is_obeyed;
 use taceva_needs::{Need, skip};
 
-/// Clears the screen, reverses the direction of text, and hides.
+/// Name with characters that clear the screen, reverse the direction of text, or are invisible.
 const HOSTILE: &str = "gel\u{1b}[2J\u{9b}3m\u{202e}\u{2066}\u{200b}\u{61c}7";
-/// The same in TOML, where controls must be escaped.
+/// The text of [`HOSTILE`] in TOML, where controls must be escaped.
 const HOSTILE_TOML: &str = "gel\\u001b[2J\\u009b3m\u{202e}\u{2066}\u{200b}\u{61c}7";
 
-/// A lab whose sensor, samples and points have hostile names, imported as `data`.
+/// Test folder with a dataset `data`, whose sensor, samples and points have hostile names.
 fn hostile() -> Bench {
     let bench = Bench::new();
     bench.lab();
@@ -141,7 +141,7 @@ fn on_a_terminal_tables_for_programs_are_as_harmless_as_words() {
     }
 }
 
-/// Runs the program by a shell, as `TACEVA`.
+/// Runs the line in a shell, with `TACEVA` replaced by the path of the program.
 fn by_shell(bench: &Bench, line: &str) -> (i32, String) {
     let line = line.replace("TACEVA", &format!("'{}'", env!("CARGO_BIN_EXE_taceva")));
     let mut shell = Command::new("sh");

@@ -50,7 +50,7 @@ pub(super) struct Pressed {
 pub(super) struct Folder(pub(super) PathBuf);
 
 impl Folder {
-    /// Folder that does not exist yet.
+    /// Name of a new folder for this process; the folder is not created.
     pub(super) fn new() -> Folder {
         let name = format!("taceva-bench-{}", std::process::id());
         Folder(std::env::temp_dir().join(name))

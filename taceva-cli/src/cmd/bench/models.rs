@@ -121,7 +121,7 @@ fn race(
     Ok(bench)
 }
 
-/// This machine, with the threads of this command.
+/// Facts of this machine, with the number of threads of this command.
 pub(super) fn here(context: &Context) -> Machine {
     let isa = Isa::available()
         .into_iter()

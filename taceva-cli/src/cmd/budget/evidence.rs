@@ -12,11 +12,11 @@ use taceva_results::{EvaluationReport, Samples, Score};
 use crate::cmd::quantity::unit_of_six;
 use crate::cmd::{Usage, results};
 
-/// Figures computed from residuals of presses.
+/// Names of the figures that are computed from residuals of presses.
 const RESIDUALS: [&str; 4] = ["error", "error.between", "error.within", "bias"];
-/// Figures taken from scores.
+/// Names of the figures that are taken from scores.
 const SCORES: [&str; 4] = ["repeatability", "drift", "r_light", "hysteresis"];
-/// Figure of depths, from a column of the samples with this name.
+/// Name of the figure for the zero of depths, and of its column in the samples.
 const ZERO: &str = Samples::ZERO_U;
 /// Channels for a template, in order of preference.
 const CHANNELS: [&str; 6] = ["Fz", "Fx", "Fy", "Pz", "Px", "Py"];
@@ -41,7 +41,7 @@ impl Channel {
     }
 }
 
-/// Measured figures, and figures without a value, each with the reason.
+/// Figures of a result that were measured, and figures without a value, each with the reason.
 #[derive(Default)]
 pub(super) struct Measured {
     pub(super) evidence: Evidence,
@@ -91,7 +91,7 @@ impl Measured {
         measured
     }
 
-    /// Changes the evidence by `change`.
+    /// Replaces the evidence by the result of `change`.
     pub(super) fn take(&mut self, change: impl FnOnce(Evidence) -> Evidence) {
         self.evidence = change(std::mem::take(&mut self.evidence));
     }
@@ -220,7 +220,7 @@ impl Found {
         })
     }
 
-    /// Uncertainty of the heights relative to which depths are measured.
+    /// Uncertainty of the zeros, the heights from which depths are measured.
     fn zero(&self, channel: &Channel) -> Result<Figure, String> {
         let mut figure = depth_zero_figure(self.samples()?, &channel.name)?;
         let table = &self.report.provenance.samples_table;
@@ -252,7 +252,7 @@ impl Found {
         }
     }
 
-    /// Pooled standard deviation of repeats, with n − cells degrees of freedom.
+    /// Pooled standard deviation of repeats. Degrees of freedom: samples minus cells, the groups of repeats.
     fn repeatability(&self, channel: &Channel) -> Result<Figure, String> {
         let score = self.score("repeatability", channel)?;
         let mut counts = score.counts.iter();
@@ -264,7 +264,7 @@ impl Found {
         Ok(noted(figure, &score))
     }
 
-    /// Standard deviation of the mean residual between light scenes.
+    /// Standard deviation between light scenes of the mean residual in each scene.
     fn light(&self, channel: &Channel) -> Result<Figure, String> {
         let samples = self.report.samples.as_ref();
         if samples.is_some_and(|samples| !samples.has("protocol")) {

@@ -109,8 +109,8 @@ impl Study {
         Ok(Figure::new(found.sd, Freedom::Finite(self.freedom(name))))
     }
 
-    /// Degrees of freedom of the component `name`: of the mean square for repeatability, by Satterthwaite for operators. Other components have
-    /// the number of operators minus 1.
+    /// Degrees of freedom of the component `name`. Repeatability has those of its mean square, operators have them by Satterthwaite, and other
+    /// components have the number of operators minus 1.
     fn freedom(&self, name: &str) -> f64 {
         let of_operators = f64::from(self.operators.saturating_sub(1).max(1));
         let row = |names: &[&str]| {

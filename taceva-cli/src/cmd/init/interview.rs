@@ -88,7 +88,7 @@ impl<R: Iterator<Item = io::Result<String>>> Interview<R> {
     /// Asks `question` until the answer is one of `choices`.
     ///
     /// # Errors
-    /// As [`Interview::ask`].
+    /// The errors of [`Interview::ask`].
     pub(super) fn choose(
         &mut self,
         question: &str,
@@ -107,7 +107,7 @@ impl<R: Iterator<Item = io::Result<String>>> Interview<R> {
     /// Asks for a number within `[least, most]`.
     ///
     /// # Errors
-    /// As [`Interview::ask`].
+    /// The errors of [`Interview::ask`].
     pub(super) fn number(
         &mut self,
         question: &str,
@@ -132,7 +132,7 @@ impl<R: Iterator<Item = io::Result<String>>> Interview<R> {
     /// Asks for a whole number within `[least, most]`.
     ///
     /// # Errors
-    /// As [`Interview::ask`].
+    /// The errors of [`Interview::ask`].
     pub(super) fn count(
         &mut self,
         question: &str,

@@ -145,7 +145,7 @@ const LEFT_OUT: &str = "none";
 /// Fills each open place of the draft with an answer, except in comments. With `--yes`, places without a default remain open.
 ///
 /// # Errors
-/// As [`Interview::ask`]; `lines` contain the earlier answers.
+/// The errors of [`Interview::ask`]; `lines` contain the earlier answers.
 fn fill(lines: &mut [String], path: &Path, interview: &mut Interview) -> anyhow::Result<()> {
     if interview.takes_defaults() {
         for line in lines {

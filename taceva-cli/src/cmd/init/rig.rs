@@ -11,7 +11,7 @@ use taceva_protocol::RigFile;
 use super::{Context, Interview, Usage, finish, target};
 use crate::args::InitTarget;
 
-/// Answer in place of the driver of a robot.
+/// Answer for a rig without a robot, given instead of a driver.
 const BY_HAND: &str = "none";
 
 pub(super) fn write(
@@ -132,8 +132,8 @@ driver = {sensor:?}
     )
 }
 
-/// Line of the rig file that states an emulation; empty for real devices. Asks if a device has an address of this machine. The question has no default, because
-/// this line lets a robot move without a typed name.
+/// Line of the rig file that states an emulation; empty for real devices. Asks if a device has an address of this machine. The question has no
+/// default, because this line lets a robot move without a typed name.
 fn emulation(selectors: &[&String], interview: &mut Interview) -> anyhow::Result<&'static str> {
     let mut selectors = selectors.iter();
     if !selectors.any(|selector| is_on_this_machine(selector)) {

@@ -79,7 +79,8 @@ pub(super) fn run(args: &PluginCheck, context: &Context) -> anyhow::Result<u8> {
     })
 }
 
-/// Prints the name of each check that runs for long, until the sender is dropped. The channel transfers a name at the start of a check, and `None` at its end.
+/// Prints the name of each check that runs for long, until the sender is dropped. The sender sends the name of a check at its start, and `None` at
+/// its end.
 fn name_long_checks(names: &Receiver<Option<String>>) {
     let mut running = None;
     loop {

@@ -1,4 +1,4 @@
-//! Finds the errors with faults of results: files of `taceva stress`, and files of a run with `[stress]`.
+//! Finds the results of tests with faults: files of `taceva stress`, and files of a run with `[stress]`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,11 +9,11 @@ use taceva_report::{FaultResult, Study};
 
 use super::{RESULTS, file_of, read};
 
-/// Folder of the errors with faults in a run. Names begin with the number of the study.
+/// Folder of a run for results of tests with faults. Names in it begin with the number of the study.
 const STRESS: &str = "stress";
 
-/// Studies of all results with their errors with faults. A result of `taceva stress` completes the study of the same sensor, serial number, gel and
-/// origin, or is a separate study.
+/// Studies of all results, each with the result of its test with faults, if any. A file of `taceva stress` belongs to the study of the same sensor,
+/// serial number, gel and origin. Without such a study, it becomes a study of its own.
 pub(in crate::cmd) fn read_all_with_faults(named: &[PathBuf]) -> anyhow::Result<Vec<Study>> {
     let mut studies = Vec::new();
     let mut alone = Vec::new();
@@ -37,7 +37,7 @@ pub(in crate::cmd) fn read_all_with_faults(named: &[PathBuf]) -> anyhow::Result<
     Ok(studies)
 }
 
-/// Adds `tested`, the study of a result of `taceva stress`, to the only study of the same subject, or to `studies`.
+/// Adds `tested`, the study of a `taceva stress` file, to the only study of the same subject, or as a new study to `studies`.
 fn add(studies: &mut Vec<Study>, tested: Study) {
     let is_same = |at: &usize| {
         let own = &studies[*at];
@@ -51,7 +51,7 @@ fn add(studies: &mut Vec<Study>, tested: Study) {
     }
 }
 
-/// Errors with faults in the file `path`; `None` for other results.
+/// Result of a test with faults in the file `path`; `None` if the file is another result.
 fn of_file(path: &Path) -> anyhow::Result<Option<FaultResult>> {
     if !path.is_file() {
         return Ok(None);
@@ -62,7 +62,7 @@ fn of_file(path: &Path) -> anyhow::Result<Option<FaultResult>> {
     faults.transpose().with_context(|| shown(path).to_string())
 }
 
-/// Errors with faults of each of the `count` studies in the results `file`; `None` for a study without such errors.
+/// Results of tests with faults, one for each of the `count` studies in the results `file`; `None` for a study without test.
 fn of_run(file: &Path, count: usize) -> anyhow::Result<Vec<Option<FaultResult>>> {
     let folder = file.with_file_name(STRESS);
     let is_run = file.file_name().is_some_and(|name| name == RESULTS);
@@ -87,7 +87,7 @@ fn of_run(file: &Path, count: usize) -> anyhow::Result<Vec<Option<FaultResult>>>
     Ok(faults)
 }
 
-/// Errors with faults of each of the `count` studies of the result `path`, which is a file or the folder of a run.
+/// Results of tests with faults for the `count` studies of the result `path`, which is a file or the folder of a run.
 pub(in crate::cmd) fn faults_of(
     path: &Path,
     count: usize,

@@ -9,7 +9,7 @@ use taceva_drivers::Selector;
 use taceva_protocol::{ContentId, SpecimenChanger, Timekeeper};
 use taceva_sim::{MODEL_VERSION, Model};
 
-/// Surroundings of the rig whose simulated robot was opened by `robot`; `None` if its bench is unknown.
+/// Clock and specimens of the simulated bench that the robot `robot` belongs to; `None` if that bench is unknown.
 pub(in crate::cmd) fn surroundings(robot: &Selector, rig: &mut Rig) -> Option<Surroundings> {
     let bench = rig.bench(&robot.bench()?)?;
     let gel = bench.provenance();

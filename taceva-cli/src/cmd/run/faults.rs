@@ -30,7 +30,7 @@ use crate::{output, progress};
 const NO_PREDICTIONS: &str =
     "no wanted metric reads predictions; add one such as `mae` to `want` under [metrics]";
 
-/// Reports of a run, and the errors with faults of each study that was tested.
+/// Reports of a run, and the result of the test with faults of each study; `None` for a study without test.
 pub(super) struct Tested {
     pub(super) reports: Vec<EvaluationReport>,
     pub(super) faults: Vec<Option<FaultResult>>,
@@ -139,7 +139,7 @@ fn usual_faults(study: &PlannedStudy) -> String {
     }
 }
 
-/// Text on the samples of `study` for the faults, and on their decoding; `None` if no metric reads predictions.
+/// Text that says which samples of `study` are read or decoded for each fault; `None` if no metric reads predictions.
 fn samples(study: &PlannedStudy) -> Option<String> {
     let plan = &study.plan;
     let is_predicted = plan.fits.iter().any(|fit| fit.field == Field::Prediction);
@@ -213,8 +213,8 @@ pub(super) struct TestedRun<'a> {
     pub(super) context: &'a Context,
 }
 
-/// Tests each of `studies` with the faults of its scene, and writes the errors to `stress/N-NAME.json` in the folder of the run. A study that cannot be
-/// tested has a note with the reason in its report.
+/// Tests each of `studies` with the faults of its scene. Writes each result to `stress/N-NAME.json` in the folder of the run. If a study cannot be
+/// tested, its report has a note with the reason.
 ///
 /// # Errors
 /// If a picture cannot be read, a press on a worn gel fails, or a file cannot be written.
@@ -264,7 +264,7 @@ pub(super) fn test(run: &TestedRun<'_>, studies: Vec<FinishedStudy>) -> anyhow::
     Ok(tested)
 }
 
-/// Errors of a study with faults, or the reason why it cannot be tested.
+/// Tests a study with faults; the inner error is the reason why it cannot be tested.
 fn of_study(
     run: &TestedRun<'_>,
     number: usize,
@@ -307,7 +307,7 @@ fn of_study(
     }
 }
 
-/// Faults of the pictures of a scene that plugins make.
+/// Picture faults of a scene that estimators of plugins make.
 ///
 /// # Errors
 /// For a plugin that was not found, and for the name of another fault.
@@ -337,8 +337,8 @@ pub(in crate::cmd) fn plugin_faults(
     faults.collect()
 }
 
-/// Presses the test part of study `number` again on gels with `fault`, into folders next to the errors of the study. A severity that the gel cannot
-/// have is skipped.
+/// Presses the test part of study `number` again on gels with `fault`, into folders next to the result of its fault test. A severity that the gel
+/// cannot have is skipped.
 fn press_worn(
     run: &TestedRun<'_>,
     number: usize,
@@ -382,7 +382,7 @@ fn press_worn(
     })
 }
 
-/// Writes the errors of study `number`, and returns them in the form that reports read.
+/// Writes the fault test of study `number` as JSON, and returns it in the form that reports read.
 fn write(
     found: &StressReport,
     folder: &RunFolder,

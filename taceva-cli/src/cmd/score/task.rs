@@ -42,7 +42,7 @@ pub(super) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Rules by the name of the task.
+/// Threshold and debounce of each task, by its name.
 fn rules(args: &Score) -> anyhow::Result<BTreeMap<String, TaskRule>> {
     let mut rules: BTreeMap<String, TaskRule> = BTreeMap::new();
     for word in &args.task.thresholds {

@@ -32,7 +32,7 @@ pub(super) fn latest(
     Ok(list)
 }
 
-/// True if every unit meets its limits. Also true without limits.
+/// True if every tested sensor unit meets its limits, or if there are no limits.
 pub(super) fn all_pass(collected: &Collected) -> bool {
     collected.units.iter().all(|unit| unit.is_passed)
 }

@@ -151,7 +151,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Findings of the checks of pictures, and the errors that these checks do not notice.
+    /// Adds the findings of checks that the fault causes, and a row `unnoticed` for each error that the fault doubles without a finding.
     fn push_check(&mut self, fault: &FaultReport, of: &SeverityReport) {
         let place = Place {
             fault: &fault.id,
@@ -176,7 +176,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Difference from the added error of the reference model, with its p value.
+    /// Adds the error that a fault adds minus the error that it adds to the reference model, with its p value.
     fn push_difference(&mut self, place: &Place<'_>, channel: &str, of: &ErrorDifference) {
         let unit = self.unit(channel);
         let reason = of.reason.as_deref().unwrap_or_default();

@@ -3,7 +3,7 @@
 use super::{near, number, source};
 use crate::support::Bench;
 
-/// Budget of Pz at 0.5 mm with these sources, by the columns of their figures.
+/// Budget file for Pz at 0.5 mm with a source for each of `figures`, named like the figure.
 fn of_depth(figures: &[&str]) -> String {
     let sources = figures
         .iter()

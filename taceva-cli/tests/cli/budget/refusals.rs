@@ -3,12 +3,12 @@
 use super::{FORMATS, of_force};
 use crate::support::Bench;
 
-/// Source `a` with these keys from line 6 on.
+/// Budget file with one source `a`, whose further keys are on line 6 and below.
 fn source(keys: &str) -> String {
     of_force(&format!("[[source]]\nname = \"a\"\n{keys}\n"))
 }
 
-/// Three sources and these correlations, from line 13 on.
+/// Budget file with three sources, and the text `rest` from line 13 on.
 fn correlated(rest: &str) -> String {
     let three = ["one", "two", "three"];
     let three = three.map(|name| format!("[[source]]\nname = \"{name}\"\nu = \"1 mN\"\n"));
@@ -19,7 +19,7 @@ fn pair(one: &str, other: &str, r: &str) -> String {
     format!("[[correlation]]\nbetween = [\"{one}\", \"{other}\"]\nr = {r}\n")
 }
 
-/// An expression over alpha = 4 and b = 0.
+/// Budget file with the expression `text` of two sources: alpha is 4, b is 0.
 fn expression(text: &str) -> String {
     format!(
         "budget_version = 1\nmeasurand = \"y\"\nunit = \"N\"\nexpression = \"{text}\"\n\
@@ -177,7 +177,7 @@ U = { Fz = "3.0 mN" }
 range = { Fz = ["0.05 N", "50 N"] }
 "#;
 
-/// A budget of the reference alone, with its certificate below this head as `cert.toml`.
+/// Test folder with `cert.toml`, a certificate below the table head `head`, and `budget.toml`, whose only source is that certificate.
 fn certified(head: &str) -> Bench {
     let bench = Bench::new();
     bench.write("cert.toml", &format!("{head}{CERTIFICATE}"));

@@ -1,4 +1,4 @@
-//! Edits of a bundle that hide themselves: digests and seals are made again.
+//! Edits of a bundle that are hidden by new digests and seals.
 
 use std::fs;
 use std::path::Path;
@@ -29,12 +29,12 @@ pub(crate) fn manifest(bench: &Bench, folder: &str) -> Value {
     serde_json::from_str(&text).expect("JSON")
 }
 
-/// Names another version, whose generated files are not compared.
+/// Sets the version of TacEva in `manifest` to another one. Generated files of other versions are not compared.
 pub(super) fn of_another_version(manifest: &mut Value) {
     manifest["taceva"] = "0.0.0".into();
 }
 
-/// Changes the manifest in `folder`, and states size and digest of every file as it is now.
+/// Changes the manifest in `folder`, then states the present size and digest of every file in it.
 pub(crate) fn relist(bench: &Bench, folder: &str, change: impl FnOnce(&mut Value)) {
     let mut manifest = manifest(bench, folder);
     let root = bench.path(folder);

@@ -1,4 +1,4 @@
-//! Bundles that leave something out, or name more than they hold.
+//! Bundles that omit data, or state data that their files do not have.
 
 use std::fs;
 
@@ -8,7 +8,7 @@ use super::forgery::{accept, edit, manifest, of_another_version, relist};
 use super::{BUNDLE, bench, of_verdict, verified};
 use crate::support::Bench;
 
-/// A whole bundle called `b`.
+/// Test folder with a complete bundle in the folder `b`.
 fn made() -> Bench {
     let bench = bench();
     bench.ok(&format!("{BUNDLE} b"));
@@ -26,7 +26,7 @@ fn change_results(bench: &Bench, change: impl FnOnce(&mut Value)) {
     accept(&path);
 }
 
-/// Removes the state of the bundle `b` with every word on it, but for the level of claims.
+/// Removes the state of the bundle `b` and every mention of it. The claims keep their level.
 fn drop_state(bench: &Bench) {
     relist(bench, "b", |manifest| {
         of_another_version(manifest);

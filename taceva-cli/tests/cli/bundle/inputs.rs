@@ -12,7 +12,7 @@ use super::forgery::{accept, edit, manifest, of_another_version, relist};
 use super::{BUNDLE, bench, of_verdict, score, verified};
 use crate::support::Bench;
 
-/// A run of two phases.
+/// Scene with two phases: calibration and an idle gel.
 pub(super) const SCENE: &str = r#"scene_version = 1
 name = "small"
 seed = 7
@@ -24,7 +24,7 @@ metrics = { want = ["mae", "noise_equivalent_force"] }
 protocol = { calibration = { points = 12, indentations = 2 }, idle = { frames = 12 } }
 "#;
 
-/// A run in the folder `run`.
+/// Test folder with a run of the scene in the folder `run`.
 fn run() -> Bench {
     let bench = Bench::new();
     bench.write("small.toml", SCENE);
@@ -174,13 +174,13 @@ fn read(path: &Path) -> Value {
     serde_json::from_str(&text).expect("JSON")
 }
 
-/// True if the part `part` of the results differs.
+/// True if the part `part` of the results differs from its recomputed form.
 fn is_other(found: &Value, part: &str) -> bool {
     let mut others = found["others"].as_array().expect("others").iter();
     others.any(|other| other["part"] == part && other["verdict"] == "differs")
 }
 
-/// Changes the cells of the table of samples of the bundle `b`, by the name of their column.
+/// Replaces each cell in the table of samples of the bundle `b` by the result of `change`, which receives the column name and the cell.
 pub(super) fn edit_cells(bench: &Bench, change: impl Fn(&str, &str) -> String) {
     edit_table(bench, |text| {
         let mut reader = csv::Reader::from_reader(text.as_bytes());

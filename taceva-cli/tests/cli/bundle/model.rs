@@ -1,4 +1,4 @@
-//! Bundles with the model behind their predictions, which predicts again on its recording.
+//! Bundles with their model, which predicts the recording again to verify the claims.
 
 use std::fs;
 
@@ -6,10 +6,10 @@ use super::forgery::{manifest, relist};
 use super::{of_verdict, verified};
 use crate::support::Bench;
 
-/// Words behind an evaluation of a fitted model, without the model.
+/// Arguments that bundle the evaluation of a fitted model, without the model.
 const BUNDLE: &str = "bundle r.json --state r.state --draft --date 2026-11-28 --out b";
 
-/// A fitted model with its evaluation on `data`.
+/// Test folder with the recording `data`, a fitted model and the evaluation of the model on it.
 fn bench() -> Bench {
     let bench = Bench::new();
     bench.record("data", 20);

@@ -1,4 +1,4 @@
-//! Forms of a catalogue for other programs.
+//! Exports of a catalogue for other programs.
 
 use std::fs;
 
@@ -8,7 +8,7 @@ use taceva_files::seal::digest_of_bytes;
 use super::{bundle, names, packed, score, set_source, text};
 use crate::support::Bench;
 
-/// A catalogue of one measured and one simulated sensor.
+/// Test folder with a catalogue of one measured and one simulated sensor.
 fn catalogue() -> Bench {
     let bench = Bench::new();
     bundle(&bench, "one", "Foo", 0.01);

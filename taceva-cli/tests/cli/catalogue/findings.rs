@@ -30,7 +30,7 @@ fn has(found: &[String], words: &[&str]) {
     assert!(found.iter().any(is_it), "{words:?}: {found:#?}");
 }
 
-/// A catalogue with one bundle of the sensor Foo.
+/// Test folder with a catalogue that has one bundle of the sensor Foo.
 fn catalogue() -> Bench {
     let bench = Bench::new();
     bundle(&bench, "one", "Foo", 0.01);
@@ -38,7 +38,7 @@ fn catalogue() -> Bench {
     bench
 }
 
-/// Replaces the first line that begins with `start` in the entry.
+/// Replaces the first line that begins with `start` in the catalogue entry of the sensor Foo.
 fn replace_line(bench: &Bench, start: &str, new: &str) {
     edit(&bench.path("c/entries/foo.toml"), |text| {
         let at = text.lines().position(|line| line.starts_with(start));

@@ -5,7 +5,7 @@ use taceva_tables::{Cell, ParquetWriter, WrittenColumn, WrittenKind};
 
 use crate::support::Bench;
 
-/// The command of the worked example.
+/// Arguments of the gauge study of the worked example of AIAG.
 pub(crate) const AIAG: &str =
     "gauge study.csv --part part --by appraiser --trial trial --channels length";
 
@@ -18,7 +18,7 @@ pub(crate) fn golden(name: &str) -> Value {
     serde_json::from_str(text).expect("JSON")
 }
 
-/// Ten parts, measured three times by three appraisers, as `study.csv`.
+/// Test folder with `study.csv`: ten parts, measured three times by three appraisers.
 pub(crate) fn aiag() -> Bench {
     let golden = golden("msa");
     let mut table = String::from("part,appraiser,trial,length\n");
@@ -44,7 +44,7 @@ pub(crate) fn rows_of(bench: &Bench) -> String {
     std::fs::read_to_string(bench.path("study.csv")).expect("there")
 }
 
-/// `study.csv` as `study.parquet`.
+/// Writes the rows of `study.csv` as `study.parquet`.
 pub(crate) fn write_parquet(bench: &Bench) {
     let columns = ["part", "appraiser", "trial"].map(|name| {
         let kind = match name {
@@ -71,7 +71,7 @@ pub(crate) fn write_parquet(bench: &Bench) {
     writer.finish().expect("written");
 }
 
-/// Samples of two simulated units at three places and two depths, twice each, as `units.csv`.
+/// Test folder with `units.csv`: samples of two simulated units at three places and two depths, twice each.
 pub(crate) fn simulated_units() -> Bench {
     let mut table = String::from(
         "sample,point_id,unit_id,depth_step,repeat,Fz,Pz,Fz_predicted,Pz_predicted,source\n",

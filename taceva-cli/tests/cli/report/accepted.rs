@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::support::Bench;
 
-/// A result of one channel.
+/// Writes the result `r.json`, which has scores of Fz alone.
 pub(super) fn scored(bench: &Bench) {
     bench.write(
         "t.csv",

@@ -50,7 +50,7 @@ fn predictions_of_the_same_samples_are_compared_one_by_one() {
     }));
 }
 
-/// One sensor, pressed a few times; two of them differ in the model.
+/// Scene of one sensor with the model `model` and a few presses.
 fn small(model: &str) -> String {
     format!(
         r#"scene_version = 1

@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::accepted::scored;
 use crate::support::Bench;
 
-/// Limits on the error of Fz, in N, below the lines of a rule.
+/// Writes `limits.toml`: the decision rule in the lines `rule`, and the limit `most` on the error of Fz in N.
 fn limit(bench: &Bench, rule: &str, most: f64) {
     let text = format!(
         "limits_version = 2\n[decision]\n{rule}\n[[limit]]\nmetric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nmost = {most}\n"
@@ -26,7 +26,7 @@ fn error_of(bench: &Bench) -> f64 {
     value.as_f64().expect("a number")
 }
 
-/// Writes another error of Fz into `r.json`, and accepts that edit.
+/// Writes the error `value` of Fz into `r.json`, and accepts that edit.
 fn resealed(bench: &Bench, value: f64) {
     let text = fs::read_to_string(bench.path("r.json")).expect("a result");
     let (before, mae) = text.split_once("\"mae\"").expect("an error");

@@ -5,7 +5,7 @@ use std::fs;
 use super::json;
 use crate::support::Bench;
 
-/// Two sensors, every part of the protocol, a few presses each.
+/// Scene of two sensors with every part of the protocol, a few presses each.
 const TWO: &str = r#"scene_version = 1
 name = "two"
 seed = 7

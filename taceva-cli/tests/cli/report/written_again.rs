@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::support::Bench;
 
-/// One sensor, pressed a few times.
+/// Scene of one sensor with a few presses.
 const SCENE: &str = r#"scene_version = 1
 name = "small"
 seed = 7

@@ -10,17 +10,17 @@ use crate::support::Bench;
 /// Faults of a scene, quick to test.
 const STRESS: &str = "stress = { faults = [\"tear\", \"sensor_noise\"], severities = [1, 3] }\n";
 
-/// The scene with `more` below its name.
+/// The small scene with the lines `more` below its seed.
 fn scene(more: &str) -> String {
     SMALL.replacen("seed = 7\n", &format!("seed = 7\n{more}"), 1)
 }
 
-/// The same, for a metric that reads no prediction.
+/// The small scene with the lines `more`, and a metric that reads no prediction.
 fn of_sensitivity(more: &str) -> String {
     scene(&format!("metrics = {{ want = [\"sensitivity\"] }}\n{more}"))
 }
 
-/// Files of errors with faults in the run at `folder`.
+/// Results of fault tests in the run at `folder`.
 fn written(bench: &Bench, folder: &str) -> Vec<Value> {
     let Ok(entries) = fs::read_dir(bench.path(folder).join("stress")) else {
         return Vec::new();

@@ -5,7 +5,7 @@ use serde_json::Value;
 use super::{SMALL, reports, with_small};
 use crate::support::Bench;
 
-/// The small scene with `folds` folds of its 16 points.
+/// The scene [`SMALL`] with `folds` folds of its 16 points.
 fn folded(folds: usize) -> String {
     SMALL.replace(
         "name = \"ridge\"",
@@ -13,7 +13,7 @@ fn folded(folds: usize) -> String {
     )
 }
 
-/// The report of the only study of a run of `scene`.
+/// Runs `scene`, and returns the report of its only study.
 fn report(bench: &Bench, scene: &str) -> Value {
     bench.write("small.toml", scene);
     bench.ok("run small.toml --out r -q");

@@ -40,7 +40,7 @@ fn a_press_that_a_limit_ends_before_its_first_sample_is_counted_too() {
     );
 }
 
-/// Number of presses of `s.toml` that the limit of normal force ended, and of all presses, by every report.
+/// Number of presses that the limit of normal force ended, and number of all presses. Runs `s.toml`, and checks that every report states them.
 fn limited_presses(bench: &Bench) -> (u64, u64) {
     let run = bench.json("run s.toml --out r");
     let provenance = &run["studies"][0]["provenance"];

@@ -3,7 +3,7 @@
 use super::{SMALL, with_small};
 use crate::support::Bench;
 
-/// The small scene with the split `split` of its 16 points.
+/// The scene [`SMALL`] with the split `split` of its 16 points.
 fn split_by(split: &str) -> String {
     SMALL.replace(
         "name = \"ridge\"",

@@ -9,10 +9,10 @@ use taceva_models::FrameReduction;
 use super::{SMALL, with_small};
 use crate::support::Bench;
 
-/// Frames of 45 × 45 pixels of 16 bits, recorded at another size.
+/// Scene line that records the frames of 45 × 45 pixels at another size.
 pub(crate) const REDUCED: &str = "recording = { frames = \"40x36\" }\n";
 
-/// Runs both scenes, in the folders `whole` and `reduced`.
+/// Runs the small scene in the folder `whole`, and the scene with other frames in the folder `reduced`.
 fn both() -> Bench {
     let bench = with_small();
     bench.write("reduced.toml", &format!("{SMALL}{REDUCED}"));

@@ -8,7 +8,7 @@ use super::reduced::REDUCED;
 use super::{SMALL, dataset_of, reports, with_small};
 use crate::support::Bench;
 
-/// A started run that is ended from outside.
+/// Process of a run, which the test kills or stops.
 struct Started {
     child: Child,
     journal: PathBuf,
@@ -45,12 +45,12 @@ impl Started {
     }
 }
 
-/// Kills a run at each of these recorded sizes, resumes it, and compares it with an uninterrupted run.
+/// Kills a run when its recording has each of these numbers of bytes, resumes it, and compares it with an uninterrupted run.
 pub(super) fn survives(bench: &Bench, moments: &[u64]) {
     survives_in(bench, "1-small", moments);
 }
 
-/// The same at sizes of the recording in the folder `recording` of the run.
+/// Does the work of [`survives`] for the recording in the folder `recording` of the run.
 fn survives_in(bench: &Bench, recording: &str, moments: &[u64]) {
     bench.ok("run small.toml --out whole -q");
     let whole = reports(&bench.path("whole"));

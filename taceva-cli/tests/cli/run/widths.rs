@@ -6,7 +6,7 @@ use super::SMALL;
 use crate::support::Bench;
 use crate::sweep_scenes::refused::{LAB, REAL};
 
-/// Calibration presses of the small scene at `points` points, all of them tested, with the wanted width `width` of the interval of `mae.Fz`.
+/// Small scene with the points `points`, all of them tested, that wants the width `width` of the interval of `mae.Fz`.
 fn wanting(points: &str, width: &str) -> String {
     let scene = SMALL
         .replace("points = 16", points)
@@ -17,7 +17,7 @@ fn wanting(points: &str, width: &str) -> String {
     )
 }
 
-/// The bench with the scene of 16 points that wants 20 %, and its run `r`.
+/// Test folder with a scene of 16 points that wants a width of 20 %, then the results and the messages of its run `r`.
 fn with_pilot() -> (Bench, Value, String) {
     let bench = Bench::new();
     bench.write("small.toml", &wanting("points = 16", "20 %"));

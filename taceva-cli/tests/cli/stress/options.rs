@@ -1,4 +1,4 @@
-//! Options of a test with faults: a reference model, other lists.
+//! Options of a test with faults: a reference model, and other lists of faults.
 
 use std::fs;
 use std::process::Stdio;

@@ -35,7 +35,7 @@ gel = "unknown"
 opaque = true
 "#;
 
-/// Imports the recording `name`: a stream at 50 Hz of four numbers that follow a force.
+/// Imports the recording `name`: a stream at 50 Hz of four taxels whose values rise with a force.
 fn import(bench: &Bench, name: &str, seed: u32) {
     let mut state = seed;
     let mut draw = || {
@@ -59,7 +59,7 @@ fn import(bench: &Bench, name: &str, seed: u32) {
     ));
 }
 
-/// A model of the recording `seen`, and the recording `unseen`.
+/// Test folder with the recordings `seen` and `unseen`, and a model fitted on `seen`.
 fn bench() -> Bench {
     let bench = Bench::new();
     import(&bench, "seen", 7);
@@ -148,7 +148,7 @@ fn requests_that_suit_no_recording_of_taxels_are_refused_by_name() {
     );
 }
 
-/// A recording `both` of presses with pictures and signals.
+/// Records the dataset `both` of presses with pictures and signals.
 fn record_both(bench: &Bench) {
     let taxels = SignalInfo::new(2, 2, 1, Unit::Microtesla).expect("a grid");
     let pixels = FrameInfo {

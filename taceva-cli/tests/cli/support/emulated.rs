@@ -14,7 +14,7 @@ use crate::support::{Bench, Ran};
 
 const PATIENCE: Deadline = Deadline::after(Duration::from_secs(20));
 
-/// An arm, a transducer and a camera over one gel.
+/// Emulated arm, force transducer and camera over one gel.
 pub(crate) struct Emulated {
     pub(crate) bench: WallBench,
     arm: xarm::Emulator,
@@ -42,7 +42,7 @@ impl Emulated {
         format!("camera/mjpeg:url={}", self.camera.url())
     }
 
-    /// The camera with stamps of a clock that is too fast by `ppm`.
+    /// Selector of the camera, with timestamps of a clock that is too fast by `ppm` parts per million.
     pub(crate) fn drifting_sensor(&self, ppm: f64) -> String {
         format!(
             "camera/mjpeg:url={};clock=server",
@@ -59,7 +59,7 @@ impl Emulated {
         drop(self.camera);
     }
 
-    /// The rig file of a bench without a robot.
+    /// Rig file of the force transducer and the camera, without a robot.
     pub(crate) fn rig(&self) -> String {
         let axes = Base::AXES;
         format!(
@@ -69,7 +69,7 @@ impl Emulated {
         )
     }
 
-    /// The rig file of the bench with its robot.
+    /// Rig file of the force transducer, the camera and the robot.
     pub(crate) fn rig_with_robot(&self) -> String {
         format!(
             "{}\n[robot]\ndriver = {:?}\ncarries = \"indenter\"\norigin_mm = {:?}\naxes = {:?}\n\n[limits]\nspeed_max_mm_s = 20.0\n",
@@ -111,7 +111,7 @@ impl Emulated {
     }
 }
 
-/// The running program.
+/// Running process of `taceva`, with its messages.
 pub(crate) struct Running {
     child: Child,
     said: Arc<Mutex<String>>,

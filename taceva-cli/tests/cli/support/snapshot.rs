@@ -1,4 +1,4 @@
-//! Initial folders of several tests, made once and kept in memory: each test has its own copy.
+//! Folders with which tests start. Each is made once and kept in memory, and each test gets a copy.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,10 +1,10 @@
-//! A sweep over two drawn recordings, and its final bytes.
+//! Sweep over two synthetic recordings, and the bytes of its tables and page.
 
 use std::fs;
 
 use super::Bench;
 
-/// Two recordings × four models × three seeds × two sizes.
+/// Sweep over two recordings, four models, three seeds and two sizes.
 pub(crate) const SWEEP: &str = r#"
 sweep_version = 1
 name = "which model, which size"
@@ -16,12 +16,12 @@ metrics = ["accuracy"]
 [vary]
 size = ["8x8", "12x12"]
 "#;
-/// Number of tasks.
+/// Number of tasks of [`SWEEP`].
 pub(crate) const TASKS: usize = 48;
 /// Files that are compared byte by byte.
 const FILES: [&str; 3] = ["table.csv", "table.parquet", "page.html"];
 
-/// A scene of one sensor, pressed at a few places.
+/// Scene of one sensor, pressed at a few places.
 pub(crate) const TINY: &str = r#"scene_version = 1
 name = "tiny"
 seed = 7
@@ -32,7 +32,7 @@ model = { name = "ridge", set = { size = "8x8" } }
 metrics = { want = ["accuracy"] }
 protocol = { calibration = { points = 12, indentations = 2 } }
 "#;
-/// A sweep over that scene: two tasks.
+/// Sweep over the scene [`TINY`]: two tasks.
 pub(crate) const TINY_SWEEP: &str = r#"sweep_version = 1
 scenes = ["tiny.toml"]
 models = ["ridge", "baseline"]
@@ -41,7 +41,7 @@ metrics = ["accuracy"]
 [vary]
 size = ["8x8"]
 "#;
-/// A folder with two recordings and the file of a sweep over both, which ends with `more`.
+/// Test folder with two recordings, and the file of a sweep over both, which ends with `more`.
 pub(crate) fn week(more: &str) -> Bench {
     let bench = Bench::new();
     for (name, noise) in [("monday", 0), ("tuesday", 1)] {
@@ -51,13 +51,13 @@ pub(crate) fn week(more: &str) -> Bench {
     bench
 }
 
-/// Final bytes of the sweep in `folder`.
+/// Bytes of the two tables and of the page of the sweep in `folder`.
 pub(crate) fn bytes(bench: &Bench, folder: &str) -> Vec<Vec<u8>> {
     let read = |name: &&str| fs::read(bench.path(folder).join(name)).expect(name);
     FILES.iter().map(read).collect()
 }
 
-/// Both tables of predictions, CSV: `rows` presses on a grid; the rows of a contact point are far apart.
+/// Table of truth and table of predictions, CSV, for `rows` presses on a grid. Rows of one contact point are far apart.
 pub(crate) fn tables(rows: u32, with_ids: bool) -> [String; 2] {
     let id = |row: u32| match with_ids {
         true => format!("{row},"),

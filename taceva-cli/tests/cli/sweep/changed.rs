@@ -1,4 +1,4 @@
-//! Changes between submission and execution are noticed by the tasks concerned.
+//! A task notices if its inputs changed between submission and execution.
 
 use std::fs;
 

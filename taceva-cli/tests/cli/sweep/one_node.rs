@@ -1,4 +1,4 @@
-//! A node that differs from the others: its disk is full, or its clock is an hour ahead.
+//! Node of a cluster that differs from the others: its disk is full, or its clock is an hour ahead.
 
 use std::process::{Command, Output, Stdio};
 use std::time::Duration;
@@ -10,11 +10,11 @@ use super::{count, small, week};
 use crate::support::Bench;
 use crate::support::sweeps::bytes;
 
-/// A disk of one page in place of the evaluations, visible to this node alone.
+/// Shell command that mounts a disk of 4 kB at the folder of evaluations, visible only to this process, and runs the arguments.
 const FULL_DISK: &str =
     "mount -t tmpfs -o size=4k tmpfs which.sweep/evaluations || exit 99; exec \"$@\"";
 
-/// The tasks of the sweep on a node with a full disk; `None` if this needs more rights.
+/// Runs the tasks of the sweep on a node with a full disk; `None` if this needs more rights.
 fn on_a_full_disk(bench: &Bench) -> Option<Output> {
     let mut node = Command::new("unshare");
     node.args(["--mount", "sh", "-c", FULL_DISK, "sh"]);
@@ -56,7 +56,7 @@ fn a_full_disk_on_one_node_fails_its_tasks_in_words_and_another_node_carries_the
     assert_eq!(bytes(&bench, "which.sweep"), small_bytes());
 }
 
-/// The program on a node whose clock and file times are an hour ahead.
+/// Command `taceva WORDS` on a node whose clock and file times are an hour ahead.
 fn an_hour_ahead(bench: &Bench, words: &str) -> Command {
     let here = bench.command(words);
     let mut ahead = Command::new("faketime");

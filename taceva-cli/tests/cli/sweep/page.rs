@@ -1,4 +1,4 @@
-//! The page: the choice, its criterion, and the candidates without a verdict.
+//! Page of a sweep: the choice, its criterion, and the candidates without a verdict.
 
 use super::store::whole;
 use super::{small, text, week};

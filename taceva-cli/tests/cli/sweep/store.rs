@@ -1,4 +1,4 @@
-//! Initial folders of several tests, made once.
+//! Folders with which several tests start, each made once.
 
 use std::sync::LazyLock;
 
@@ -7,18 +7,18 @@ use crate::support::Bench;
 use crate::support::snapshot::Snapshot;
 use crate::support::sweeps;
 
-/// The two recordings, and the file of the sweep over both.
+/// Two recordings, and the file of a sweep over them.
 pub(crate) static WEEK: LazyLock<Snapshot> =
     LazyLock::new(|| Snapshot::of(&sweeps::week("").path(".")));
 
-/// The sweep over both by one worker: its folder, and what was printed.
+/// Folder of a sweep over both recordings by one worker, and its printed text.
 pub(crate) static WHOLE: LazyLock<(Snapshot, String)> = LazyLock::new(|| {
     let bench = week();
     let out = bench.ok("sweep which.toml --out one --jobs 1 -q");
     (Snapshot::of(&bench.path("one")), out)
 });
 
-/// The folder of the small sweep, scored.
+/// Folder of the finished small sweep.
 static SMALL: LazyLock<Snapshot> = LazyLock::new(|| {
     let bench = week();
     small(&bench, &[]);
@@ -26,14 +26,14 @@ static SMALL: LazyLock<Snapshot> = LazyLock::new(|| {
     Snapshot::of(&bench.path("which.sweep"))
 });
 
-/// Both recordings, and the sweep over both by one worker in `one`.
+/// Test folder with two recordings, and in `one` a finished sweep over them by one worker.
 pub(crate) fn whole() -> Bench {
     let bench = week();
     WHOLE.0.put(&bench.path("one"));
     bench
 }
 
-/// Both recordings, and the small sweep in `which.sweep`, scored.
+/// Test folder with two recordings, and in `which.sweep` the finished small sweep.
 pub(crate) fn scored() -> Bench {
     let bench = week();
     small(&bench, &[]);
@@ -41,7 +41,7 @@ pub(crate) fn scored() -> Bench {
     bench
 }
 
-/// Final bytes of the small sweep.
+/// Bytes of the tables and the page of the small sweep.
 pub(crate) fn small_bytes() -> Vec<Vec<u8>> {
     let bench = Bench::new();
     SMALL.put(&bench.path("small"));

@@ -5,7 +5,7 @@ use std::fs;
 use super::{SWEEP, TINY, tiny};
 use crate::support::Bench;
 
-/// The sweep with `scenes` in the place of its own.
+/// Writes the file of the sweep with the text `scenes` instead of its list of scenes.
 fn with(bench: &Bench, scenes: &str) {
     let text = SWEEP.replace("scenes = [\"tiny.toml\"]", scenes);
     assert_ne!(text, SWEEP);
@@ -121,7 +121,7 @@ fn a_scene_that_cannot_be_meant_and_a_sweep_that_cannot_are_refused_before_any_p
     assert!(!bench.path("which.sweep").exists());
 }
 
-/// A rig of real devices; none of them is opened.
+/// Rig of real devices, none of which is opened.
 pub(crate) const LAB: &str = r#"rig_version = 1
 [robot]
 driver = "ufactory/xarm:host=127.0.0.1"
@@ -138,7 +138,7 @@ latency_ms = 38.0
 [limits]
 speed_max_mm_s = 20.0
 "#;
-/// A scene on that rig.
+/// Scene on the rig [`LAB`].
 pub(crate) const REAL: &str = r#"scene_version = 1
 name = "real"
 seed = 7

@@ -6,7 +6,7 @@ use std::process::{Child, Command, Stdio};
 use super::{RECORDING, TINY, bytes, claims, tiny};
 use crate::support::Bench;
 
-/// The running sweep, once `bytes` bytes are recorded.
+/// Starts the sweep, and waits until `bytes` bytes are recorded.
 fn recorded(bench: &Bench, bytes: u64) -> Child {
     let mut command = bench.command("sweep which.toml --jobs 1");
     command.stdout(Stdio::null()).stderr(Stdio::piped());

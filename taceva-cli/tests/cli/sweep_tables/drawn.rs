@@ -1,4 +1,4 @@
-//! Both tables, as CSV and as Parquet.
+//! Tables of truth and predictions, as CSV and as Parquet.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use crate::support::sweeps::tables;
 const SENSOR: &str = "model = \"drawn\"\nopaque = true\n\n[footprint]\nshape = \"rect\"\nhalf_x_mm = 5.0\nhalf_y_mm = 5.0\ndepth_max_mm = 1.0\n";
 pub(crate) const SWEEP: &str = "sweep_version = 1\nsensor = \"sensor.toml\"\n[score]\ntruth = \"truth.csv\"\npred = \"pred.csv\"\nshards = 7\n";
 
-/// Both tables as CSV and as Parquet; with many rows they exceed one read.
+/// Test folder with tables of truth and predictions, as CSV and as Parquet. Many rows exceed the size of one read.
 pub(crate) fn bench(rows: u32, with_ids: bool) -> Bench {
     let bench = Bench::new();
     bench.write("sensor.toml", SENSOR);
@@ -22,7 +22,7 @@ pub(crate) fn bench(rows: u32, with_ids: bool) -> Bench {
     bench
 }
 
-/// The CSV of `text` as Parquet.
+/// Writes the CSV table `text` as Parquet.
 pub(crate) fn write_parquet(path: &Path, text: &str) {
     let mut lines = text.lines();
     let names: Vec<&str> = lines.next().expect("a header").split(',').collect();

@@ -6,12 +6,12 @@ use serde_json::Value;
 
 use crate::support::Bench;
 
-/// Strokes of [`labels`].
+/// Number of strokes of [`labels`].
 const STROKES: u32 = 24;
-/// Frames of a stroke: slip from the fifth on.
+/// Number of frames of a stroke. Slip begins at the fifth frame.
 const FRAMES: u32 = 10;
 
-/// Labels of 24 strokes. Tables of other seconds have other digests.
+/// Writes a table of labels of 24 strokes. `offset` shifts the column of seconds, so that the table has another digest.
 fn labels(bench: &Bench, name: &str, offset: u32) {
     let mut table = "id,stroke,second,slip\n".to_owned();
     for stroke in 0..STROKES {
@@ -24,7 +24,7 @@ fn labels(bench: &Bench, name: &str, offset: u32) {
     bench.write(name, &table);
 }
 
-/// Predictions that begin to slip `late` frames after the labels, and their scores, as `NAME.json` and `NAME.state`.
+/// Writes and scores predictions in which slip begins `late` frames after its label. Writes `NAME.json` and `NAME.state`.
 fn model(bench: &Bench, name: &str, options: &str, late: impl Fn(u32) -> u32) {
     let mut table = "id,slip\n".to_owned();
     for stroke in 0..STROKES {
@@ -41,7 +41,7 @@ fn model(bench: &Bench, name: &str, options: &str, late: impl Fn(u32) -> u32) {
     ));
 }
 
-/// Bench with the model `a`, which is late by half a frame, and `b`, which is late by a frame and a half.
+/// Test folder with two models: `a` predicts slip half a frame late on average over the strokes, `b` one and a half frames.
 fn two() -> Bench {
     let bench = Bench::new();
     labels(&bench, "truth.csv", 0);
@@ -50,7 +50,7 @@ fn two() -> Bench {
     bench
 }
 
-/// Answer of a score.
+/// Answer of `comparison` for the score `score`.
 fn answer<'r>(comparison: &'r Value, score: &str) -> &'r Value {
     let answers = comparison["answers"].as_array().expect("a list");
     let found = answers.iter().find(|answer| answer["score"] == score);
@@ -182,7 +182,7 @@ fn a_model_that_a_constant_equals_is_not_ranked() {
     assert_eq!(ran.code, 1, "{}", ran.err);
 }
 
-/// Predictions of slip in every frame.
+/// Table that predicts slip in every frame.
 fn slips_alone() -> String {
     let rows = (0..STROKES * FRAMES).map(|id| format!("{id},slip\n"));
     format!("id,slip\n{}", rows.collect::<String>())

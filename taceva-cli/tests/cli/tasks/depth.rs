@@ -1,4 +1,4 @@
-//! Depth maps of a dataset beside those of an array, and places of two tables.
+//! Scores of the depth maps in an array against those of a dataset, and of places in two tables.
 
 use std::fmt::Write as _;
 
@@ -25,12 +25,12 @@ gel = "unknown"
 opaque = "unknown"
 "#;
 
-/// NumPy file of maps of 3 x 3 pixels.
+/// Writes a NumPy file of depth maps of 3 × 3 pixels.
 fn write_maps(bench: &Bench, name: &str, maps: &[[f32; 9]]) {
     write_depths(bench, name, 3, maps.as_flattened());
 }
 
-/// NumPy file of square maps.
+/// Writes a NumPy file of square depth maps.
 fn write_depths(bench: &Bench, name: &str, side: usize, depths: &[f32]) {
     let shape = format!("({}, {side}, {side})", depths.len() / (side * side));
     let header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': {shape}, }}\n");
@@ -43,7 +43,7 @@ fn write_depths(bench: &Bench, name: &str, side: usize, depths: &[f32]) {
     std::fs::write(bench.path(name), bytes).expect("written");
 }
 
-/// Six presses, each deeper than the one before, and the dataset `set` with their true maps.
+/// Imports the dataset `set` of six presses, each deeper than the one before, and returns the true maps.
 fn presses(bench: &Bench) -> Vec<[f32; 9]> {
     let mut table = "fz,press\n".to_owned();
     let mut maps = Vec::new();
@@ -133,7 +133,7 @@ fn the_mean_map_of_a_declared_training_part_is_the_constant_to_beat() {
     );
 }
 
-/// Report on predictions that equal the maps of a new dataset.
+/// Scores predictions that equal the true maps of a new dataset.
 fn scored_with_itself(bench: &Bench, maps: &[[f32; 9]]) -> serde_json::Value {
     write_maps(bench, "lab/depth.npy", maps);
     write_maps(bench, "maps.npy", maps);
@@ -206,7 +206,7 @@ fn places_are_scored_by_their_distance() {
     assert!(!report.to_string().contains("pose_rotation"), "{report:#}");
 }
 
-/// Tables of places in mm, with predictions `scale` times the truth; `follows` is false for predictions that do not follow it.
+/// Writes tables of true places in mm and of predictions `scale` times the truth. If `follows` is false, some predictions have the opposite sign.
 fn places(bench: &Bench, scale: f64, follows: bool) {
     let mut truth = "id,object,contact.x,contact.y,contact.z\n".to_owned();
     let mut prediction = "id,contact.x,contact.y,contact.z\n".to_owned();
@@ -282,7 +282,7 @@ fn depth_maps_are_no_labels_of_a_classifier_and_of_a_model_file() {
     );
 }
 
-/// Dataset `name` of ten presses, each at six depths, on 8 x 8 taxels. Signals follow the depths below them.
+/// Imports the dataset `name` of ten presses at six depths each, on 8 × 8 taxels. Each taxel measures the depth at its place.
 fn press_taxels(bench: &Bench, name: &str, first: u16) {
     let mut table = String::from("fz,press");
     (0..64).for_each(|taxel| write!(table, ",c{taxel}").expect("written"));
@@ -311,7 +311,7 @@ fn press_taxels(bench: &Bench, name: &str, first: u16) {
     bench.ok(&format!("import lab --map lab/map.toml --out {name} -q"));
 }
 
-/// Root of the mean square of all errors, as a share of that of the mean map.
+/// Root mean square error of the depths over all pixels, divided by that of the mean map.
 fn share_of_constant(report: &serde_json::Value) -> f64 {
     let error = estimate(report, "depth_rmse", None);
     let number = |key: &str| error[key].as_f64().expect("a number");

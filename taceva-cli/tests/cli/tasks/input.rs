@@ -3,10 +3,10 @@
 use super::{SLIP, estimate, slip};
 use crate::support::Bench;
 
-/// Command for the tables of [`cloth`].
+/// Arguments that score the tables which [`cloth`] writes.
 const CLOTH: &str = "score --truth truth.csv --pred pred.csv --cluster clip --task cloth=class";
 
-/// Tables of the true and of the predicted classes of two clips.
+/// Writes tables of the true and the predicted classes of two clips.
 fn cloth(bench: &Bench, truth: [&str; 3], prediction: [&str; 3]) {
     let [a, b, c] = truth;
     bench.write(
@@ -149,7 +149,7 @@ fn predictions_without_classes_and_scores_are_refused_with_both_columns() {
     bench.refused(CLOTH, 3, message);
 }
 
-/// Predictions of [`slip`] without the scores of the other class.
+/// Table of predictions of [`slip`] without the scores of the class `no_slip`.
 fn of_the_positive(prediction: &str) -> String {
     let rows = prediction.lines().map(|line| {
         let cells: Vec<&str> = line.split(',').collect();

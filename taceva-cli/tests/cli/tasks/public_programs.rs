@@ -1,4 +1,4 @@
-//! Numbers of public programs beside the right ones.
+//! Numbers that public programs print, beside the correct numbers.
 
 use super::{SLIP, slip};
 use crate::support::Bench;

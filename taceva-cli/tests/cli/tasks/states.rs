@@ -24,7 +24,7 @@ fn score(bench: &Bench, name: &str, options: &str) {
     ));
 }
 
-/// Bench with three states of two strokes each.
+/// Test folder with three states, each of two strokes.
 fn three() -> Bench {
     let bench = Bench::new();
     slip(&bench);
@@ -148,7 +148,7 @@ fn a_state_that_was_edited_is_refused() {
     assert!(ran.err.contains("1.state"), "{}", ran.err);
 }
 
-/// Tables of [`slip`] with onsets, thresholds and a row without a label.
+/// Writes the tables of [`slip`] with one label removed. Returns the arguments that score them with a threshold and a debounce.
 fn with_rules(bench: &Bench) -> String {
     slip(bench);
     let truth = std::fs::read_to_string(bench.path("truth.csv")).expect("written");

@@ -1,4 +1,4 @@
-//! Signals that end long reading, which looks at no signal itself.
+//! Signals during the reading of large files. The reader does not check for signals, but the program ends.
 
 use std::fs;
 use std::path::Path;
@@ -7,11 +7,11 @@ use std::time::{Duration, Instant};
 use crate::support::Bench;
 use crate::support::emulated::Running;
 
-/// Bytes of one table. Each of the [`TABLES`] names is read on its own: together they take much longer than the time that is allowed.
+/// Size of the table in bytes. A draft reads it once for each of its [`TABLES`] names, which takes much longer than the allowed time.
 const BYTES: usize = 48 << 20;
-/// Names of the one table: as many as a draft reads.
+/// Number of names of the same table, as many as a draft reads.
 const TABLES: usize = 64;
-/// Members of an archive, and the rows of each. A member of JSON takes seconds.
+/// Number of members of an archive, each of [`ROWS`] rows. Reading a JSON member takes seconds.
 const MEMBERS: usize = 4;
 const ROWS: usize = 500_000;
 /// Time allowed between a signal and the end. The program allows itself one second.

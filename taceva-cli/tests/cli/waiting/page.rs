@@ -57,7 +57,7 @@ impl Page {
         self.post("/stop", "");
     }
 
-    /// Answers every question, from a thread that ends with the page.
+    /// Starts a thread that answers every question on the page until the page closes.
     fn answer_everything(&self) {
         let page = self.clone();
         let mut events = page.asked("GET /events", "");
@@ -80,7 +80,7 @@ impl Page {
         });
     }
 
-    /// Reads a stream until it contains `words`.
+    /// Reads the stream at `path` until it contains `words`.
     pub(crate) fn until(&self, path: &str, words: &[u8]) -> Vec<u8> {
         let mut stream = self.asked(&format!("GET {path}"), "");
         let began = Instant::now();
@@ -189,7 +189,7 @@ fn print(words: &str) {
     eprintln!("{words}");
 }
 
-/// Waits until the arm has moved for a while, because short motions end by themselves. Returns true if the run lasts that long.
+/// Waits until the arm has moved for 80 ms, because short motions end by themselves. Returns true if the run lasts that long.
 fn in_a_long_motion(emulated: &Emulated, running: &mut Running) -> bool {
     const LONG: Duration = Duration::from_millis(80);
     let began = Instant::now();

@@ -7,7 +7,7 @@ use std::net::TcpListener;
 
 use crate::support::Bench;
 
-/// The sensor of the template, with a connection that is held while the sensor is open.
+/// Creates the sensor of the template, with a connection that is open while the sensor is open.
 fn connecting_sensor(bench: &Bench) {
     bench.ok("plugin new sensor my-eye");
     let path = bench.path("my-eye/src/sensor.rs");
@@ -38,7 +38,7 @@ fn connecting_sensor(bench: &Bench) {
     bench.build_plugin("my-eye");
 }
 
-/// Writes the need `need` into the manifest.
+/// Makes `need` the only need of the manifest.
 fn needs(bench: &Bench, need: &str) {
     let path = bench.path("my-eye/plugin.toml");
     let manifest = fs::read_to_string(&path).expect("there");

@@ -20,7 +20,7 @@ const ID: &str = "org.example.carousel";
 const FOLDER: &str = "--plugin-dir carousel";
 const HOLDS: &str = "sphere of radius 2 mm, line grating of 1 mm, line grating of 1.5 mm";
 
-/// Behaviour of the carousel when it is asked to turn to its second or third place.
+/// Behaviour of the emulated carousel when it turns to its second or third place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Mood {
     Well,
@@ -33,7 +33,7 @@ enum Mood {
 /// Requested places, each with true if the arm was above the gel at the beginning and the end of the turn.
 type Turns = Mutex<Vec<(usize, bool)>>;
 
-/// The carousel at the other end of the line.
+/// Emulated carousel, to which the driver connects.
 struct Carousel {
     port: u16,
     mood: Arc<Mutex<Mood>>,
@@ -116,7 +116,7 @@ fn mount(bench: &WallBench, place: usize) {
         .expect("it is away from the gel");
 }
 
-/// Six presses of a ball, and four of each of two boards.
+/// Scene with six presses of a ball, and four presses of each of two boards.
 const SCENE: &str = r#"scene_version = 1
 name = "wire"
 seed = 7
@@ -132,7 +132,7 @@ calibration = { points = 6, indentations = 1 }
 gratings = { from_mm = 1.0, to_mm = 1.5, step_mm = 0.5, kinds = ["line"], presses = 4 }
 "#;
 
-/// A run, repeated until `is_done`: a busy machine may end it for another device.
+/// Runs or resumes the scene until `is_done`, because a busy machine may end a run by the failure of another device.
 fn run_until(bench: &Bench, is_done: impl Fn(&Ran) -> bool) -> Ran {
     let mut ran = None;
     for _ in 0..8 {

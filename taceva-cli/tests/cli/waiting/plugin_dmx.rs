@@ -1,4 +1,4 @@
-//! The light in `examples/plugins/dmx-light`, a changer that is a plugin: refused, allowed, and set through a port that the test reads.
+//! Lighting plugin `examples/plugins/dmx-light`: refused, allowed, and set through a port that the test reads.
 
 #![cfg(target_os = "linux")]
 
@@ -14,7 +14,7 @@ use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 
 const KEY: &str = "org.example.dmx-light/dmx-light";
 
-/// A port, and all bytes that it received.
+/// Opens a pseudo-terminal. Returns its path, and the bytes that it receives.
 fn port() -> (String, Arc<Mutex<Vec<u8>>>) {
     let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).expect("a terminal");
     grantpt(&master).expect("ours");

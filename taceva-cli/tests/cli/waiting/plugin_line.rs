@@ -13,7 +13,7 @@ use crate::support::Bench;
 
 const KEY: &str = "org.example.line-transducer/line-transducer";
 
-/// A device on loopback that sends the text of `line` for each number, 200 times a second, to every client. Returns its port.
+/// Starts a device on loopback that sends the text of `line` for each number, 200 times a second, to every client. Returns its port.
 fn device(line: fn(u64) -> String) -> u16 {
     let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
     let port = listener.local_addr().expect("bound").port();

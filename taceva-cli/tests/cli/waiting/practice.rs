@@ -14,7 +14,7 @@ use crate::support::emulated::Running;
 
 const PATIENCE: Deadline = Deadline::after(Duration::from_secs(20));
 
-/// Commands of `page` that open the control port, with its number.
+/// Commands of `page` from the opening of the control port on, with the number of the port.
 fn commands(page: &str, served: &Served) -> String {
     let (_, rest) = page.split_once("exec 3<>").expect("a port");
     let block = rest.split("```").next().expect("an end");
@@ -50,7 +50,7 @@ fn presses_typed_as_on_the_page_of_captures_become_twelve_contacts() {
     panic!("{said}");
 }
 
-/// Capture of the presses that the page of captures types, and what it printed.
+/// Captures the presses that the commands of docs/capture.md make. Returns the test folder and the output.
 fn captured() -> (Bench, String) {
     let served = Served::start(&ServeOptions {
         is_lossless: false,

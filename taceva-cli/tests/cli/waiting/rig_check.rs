@@ -1,4 +1,4 @@
-//! `taceva rig check` on emulated devices: certificates beside what the devices state.
+//! `taceva rig check` on emulated devices: certificates are compared with the devices, the day and their files.
 
 use std::net::Ipv4Addr;
 

@@ -76,7 +76,7 @@ impl Person {
     }
 }
 
-/// Exit code of a comparison with `mass_g`, its output, and the person at the terminal.
+/// Compares the force with the weight of `mass_g`. Returns the exit code, the output and the person at the terminal.
 fn weighed(
     bench: &Bench,
     emulated: &Emulated,

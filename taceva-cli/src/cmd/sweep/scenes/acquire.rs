@@ -22,7 +22,7 @@ const LOOK_EVERY: Duration = Duration::from_millis(200);
 /// Message after an interruption.
 const STOPPED: &str = "stopped while a scene was acquired; the same command continues from here";
 
-/// Objects that an acquisition uses.
+/// Folder, models and cache that an acquisition uses.
 pub(crate) struct Acquisition<'a> {
     pub(crate) folder: &'a SweepFolder,
     pub(crate) models: &'a Models,

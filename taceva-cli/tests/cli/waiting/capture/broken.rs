@@ -100,7 +100,7 @@ fn a_transducer_that_says_nothing_ends_it_too() {
     whole(&bench, "out");
 }
 
-/// A camera that sends a frame every `period`; `width` gives the width of each frame by its number, in pixels.
+/// Starts a camera that sends a frame every `period`. `width` returns the width of a frame in pixels, by the number of the frame.
 pub(crate) fn camera(
     period: Duration,
     width: impl Fn(usize) -> u32 + Send + 'static,
@@ -135,7 +135,7 @@ pub(crate) fn camera(
     address
 }
 
-/// A camera that sends `first` frames of one size and then frames of another size.
+/// Starts a camera that sends `first` frames of one size, then frames of another size.
 pub(crate) fn changing_camera(first: usize) -> SocketAddr {
     let width = move |number| if number < first { 32 } else { 48 };
     camera(Duration::from_millis(20), width)

@@ -14,7 +14,7 @@ use crate::support::Bench;
 use crate::support::emulated::{Emulated, Running};
 use crate::waiting::page::Page;
 
-/// Frames of noise whose first number is the force.
+/// Writes a recording of noise, in which the first pixel of a frame determines the force.
 fn write_recording(bench: &Bench, name: &str, info: FrameInfo, rows: u32) {
     let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("gel"));
     let channels = Channels::new([Channel::FZ, Channel::PX]).expect("two");
@@ -37,7 +37,7 @@ fn write_recording(bench: &Bench, name: &str, info: FrameInfo, rows: u32) {
     recorder.close().expect("closed");
 }
 
-/// Fits a model on `rows` frames like those of a sensor, into NAME.taceva.
+/// Fits a model on `rows` frames of the format `info`, and writes it to NAME.taceva.
 fn fit_for(bench: &Bench, name: &str, info: FrameInfo, rows: u32) {
     write_recording(bench, name, info, rows);
     bench.ok(&format!(
@@ -45,7 +45,7 @@ fn fit_for(bench: &Bench, name: &str, info: FrameInfo, rows: u32) {
     ));
 }
 
-/// The size and format of the frames of a sensor.
+/// Captures two frames of a sensor, and returns their size and format.
 fn info_of(bench: &Bench, sensor: &str, name: &str) -> FrameInfo {
     bench.ok(&format!("capture {name} --sensor {sensor} --frames 2 -q"));
     let dataset = Dataset::open(&bench.path(name)).expect("whole");

@@ -11,7 +11,7 @@ use taceva_needs::{Need, skip};
 
 use crate::support::Bench;
 
-/// Timeout that a loaded machine meets.
+/// Timeout that is long enough for a loaded machine.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(240);
 
 /// One cluster at a time: free ports must stay free until the daemons open them.
@@ -24,7 +24,7 @@ pub(crate) struct Cluster {
 }
 
 impl Cluster {
-    /// Starts a cluster; `None` if this machine cannot.
+    /// Starts a cluster; `None` if Slurm is not installed or the user is not root.
     pub(crate) fn start() -> Option<Cluster> {
         let is_there = |program: &str| {
             let found = Command::new("sh")

@@ -1,4 +1,4 @@
-//! The same bytes on two nodes, with one node lost and the controller restarted.
+//! Sweep on two nodes whose results have the same bytes, even if a node is lost and the controller restarts.
 
 use std::fs;
 use std::time::{Duration, Instant};

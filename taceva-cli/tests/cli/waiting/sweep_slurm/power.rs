@@ -1,4 +1,4 @@
-//! Daemons that are killed.
+//! Loss of power on a node or the controller, by killing the daemons.
 
 use std::fs;
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use super::cluster::{Cluster, PATIENCE};
 
-/// Kills the processes of a node as a power cut would: first those that would report the end of a job, then the jobs.
+/// Kills the processes of a node as a power cut would. Kills the processes that report the end of a job before the jobs.
 pub(crate) fn cut_power(cluster: &Cluster, node: &str) {
     let daemon = cluster.pid(&format!("slurmd-{node}.pid"));
     let ours = [
