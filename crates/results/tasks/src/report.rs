@@ -11,7 +11,7 @@ use crate::score::TaskScore;
 /// Schema of a report of tasks. Version 1.1 added method, standard error and degrees of freedom of each interval.
 pub const TASKS_SCHEMA: &str = "taceva.tasks/1.1";
 
-/// Scores of the tasks of two tables.
+/// Scores of the tasks whose labels are in a table of the truth, and a table of predictions.
 ///
 /// ```
 /// use taceva_tasks::{TASKS_SCHEMA, TaskReport};
@@ -67,7 +67,7 @@ pub struct TaskScores {
     pub name: String,
     /// Kind of the task: `class`, `event`, `outcome`, `pose`, `place` or `depth`.
     pub kind: String,
-    /// Column with the clusters.
+    /// Table column that names the cluster of each row.
     pub cluster: String,
     /// Names of the clusters in order, for paired comparisons. Reports omit these names.
     #[serde(skip)]

@@ -12,7 +12,7 @@ use crate::undefined::Undefined;
 /// Exact sums and counts of a cluster.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Totals<const SUMS: usize, const COUNTS: usize> {
-    /// Sums of numbers.
+    /// Exact sums, such as of errors.
     pub(crate) sums: [ExactSum; SUMS],
     /// Counts, such as pixels or poses.
     pub(crate) counts: [u64; COUNTS],

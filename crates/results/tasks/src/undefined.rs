@@ -53,7 +53,7 @@ pub enum Undefined {
 }
 
 impl Undefined {
-    /// The reason for the interval of a score without a value.
+    /// Reason for the missing interval of a score without a value.
     pub(crate) fn of_interval(self) -> UndefinedReason {
         match self {
             Undefined::Empty => UndefinedReason::Empty,

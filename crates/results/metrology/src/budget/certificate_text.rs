@@ -29,7 +29,7 @@ struct Device {
 }
 
 impl Certificate {
-    /// Reads the certificate of the reference of `channel` for a recording of this day.
+    /// Reads the certificate of the reference of `channel` for a recording made on `recorded_on`.
     ///
     /// ```
     /// use taceva_metrology::budget::Certificate;
@@ -48,7 +48,7 @@ impl Certificate {
     /// ```
     ///
     /// # Errors
-    /// [`BudgetError`] with the line of invalid TOML or of an inconsistent certificate. Also if no certificate, or more than one, states this channel.
+    /// [`BudgetError`] with the line of invalid TOML or of an inconsistent certificate. Also if none or several state `channel`.
     pub fn read(
         text: &str,
         channel: &str,

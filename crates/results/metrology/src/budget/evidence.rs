@@ -15,7 +15,7 @@ use super::freedom::Freedom;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Figure {
-    /// Estimate: a correction added to the reading, usually 0. For `drift`, the slope per hour.
+    /// Estimate: a correction added to the reading, usually 0. For the figure `drift`, the slope per hour.
     pub value: f64,
     /// Standard uncertainty.
     pub u: f64,
@@ -25,11 +25,11 @@ pub struct Figure {
     pub n: Option<u64>,
     /// Number of clusters among these rows, such as contact points; `None` if unknown.
     pub clusters: Option<u64>,
-    /// Least and greatest label of these rows; `None` if unknown.
+    /// Least and greatest true value of the channel in these rows; `None` if unknown.
     pub labels: Option<[f64; 2]>,
     /// Digest of the figure's source file; `None` if unknown.
     pub digest: Option<String>,
-    /// Reservation that every output repeats; `None` for no reservation.
+    /// Caveat that every output repeats; `None` for no caveat.
     pub note: Option<String>,
 }
 
@@ -48,7 +48,7 @@ impl Figure {
         }
     }
 
-    /// Drift of idle readings, in units of the measurand per hour.
+    /// Figure of a drift of idle readings, in units of the measurand per hour.
     pub fn of_drift(slope_per_hour: f64) -> Figure {
         Figure {
             value: slope_per_hour,

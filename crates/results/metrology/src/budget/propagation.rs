@@ -15,7 +15,7 @@ pub(super) struct Combined {
     pub(super) greatest_term: Option<[usize; 2]>,
 }
 
-/// Combines the inputs at the expansion of the model. Derivatives after the derivatives of the inputs belong to constants.
+/// Combined uncertainty of the model. The derivatives in `expansion` are those of the inputs, then those of constants.
 ///
 /// u² = Σ cᵢ²uᵢ² + 2 ΣΣ cᵢcⱼuᵢuⱼrᵢⱼ, with the sensitivity cᵢ and standard uncertainty uᵢ of input i, and the correlation rᵢⱼ.
 ///

@@ -48,7 +48,7 @@ pub struct Budget {
     pub k: Option<f64>,
     /// Coverage probability.
     pub p: f64,
-    /// First-order expanded uncertainty k u, unrounded, also if draws give the interval; `None` if `nu_eff` is undefined, unless `u` is 0.
+    /// First-order expanded uncertainty k u, unrounded, even if `interval` is from draws. `None` if `k` is undefined and `u` above 0.
     #[serde(rename = "U")]
     pub expanded: Option<f64>,
     /// Coverage interval, computed by `method`; `None` if undefined.
@@ -130,7 +130,7 @@ pub struct Source {
     pub n: Option<u64>,
     /// Number of clusters behind the figure; `None` if unknown.
     pub clusters: Option<u64>,
-    /// Least and greatest label of the figure's rows; `None` if unknown.
+    /// Least and greatest true value of the channel in the figure's rows; `None` if unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub labels: Option<[f64; 2]>,
     /// Digest of the figure's source file; `None` if unknown.
@@ -259,7 +259,7 @@ impl Budget {
         Some(format!("interval {low} to {high} {unit}, {}", self.method))
     }
 
-    /// Reservation about the reference: no certificate, or a certificate that had expired on the day of the recording; `None` for neither.
+    /// Caveat about the reference: no certificate, or a certificate that had expired on the day of the recording; `None` for neither.
     pub fn reservation(&self) -> Option<&'static str> {
         let stated = self.traceability.as_ref();
         if stated.is_some_and(Traceability::is_expired) {
@@ -271,13 +271,13 @@ impl Budget {
             .then_some("not traceable")
     }
 
-    /// Distinct label ranges of the samples behind the sources, in words.
+    /// Distinct ranges of true values that the sources were measured on, in words.
     pub fn labels_in_words(&self) -> Vec<String> {
         let ranges = self.label_ranges().into_iter();
         ranges.map(|range| self.range_in_words(range)).collect()
     }
 
-    /// Warnings for a reading outside the label range of the samples behind a source.
+    /// Warnings for a reading outside the true values on which a source was measured.
     pub(super) fn beyond_labels(&self) -> Vec<String> {
         let Some(at) = self.at else {
             return Vec::new();

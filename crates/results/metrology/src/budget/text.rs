@@ -183,7 +183,7 @@ impl BudgetText {
         BudgetError::new(from.map(|from| self.line(from)), "from", problem)
     }
 
-    /// Quantity of the measurand and of absolute sources.
+    /// Expected unit of the measurand and of sources that are added to it.
     pub(super) fn wanted(&self) -> Wanted {
         match (self.kept_unit, &self.written.expression) {
             (Some(unit), None) => Wanted::In(unit),

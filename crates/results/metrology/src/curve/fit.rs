@@ -155,7 +155,7 @@ impl CurveFit {
         all.iter().take(self.count).map(coefficient).collect()
     }
 
-    /// Covariance s²(XᵀX)⁻¹ of the coefficients of x, row by row.
+    /// Covariance of the coefficients, row by row: residual variance times (XᵀX)⁻¹, with powers of x as columns of X.
     pub fn covariance(&self) -> Vec<Vec<f64>> {
         let all = self.powers_of_x();
         let square = self.residual_deviation().powi(2);

@@ -1,8 +1,8 @@
-//! Limits of relative errors, similar to those of a standard, and the strictest row that measured figures meet.
+//! Limits of relative errors, similar to those of a standard, and the strictest class whose limits all figures meet.
 
 use std::fmt;
 
-/// Multiples of the class 1 limits, which no standard defines.
+/// Multiples of the class 1 limits. The standards define no class for these multiples.
 const MULTIPLES: [u32; 6] = [5, 10, 20, 50, 100, 200];
 
 /// A table of limits in %.

@@ -159,7 +159,7 @@ impl Confusion<'_> {
         self.score("recall", &definition, found)
     }
 
-    /// Score with the rule in its definition.
+    /// Score whose definition names the rule applied to the predictions.
     fn score(&self, metric: &'static str, definition: &str, found: Estimate) -> TaskScore {
         let definition = match self.rule {
             "" => definition.to_owned(),

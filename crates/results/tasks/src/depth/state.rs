@@ -36,7 +36,7 @@ pub struct DepthState {
     pub(super) greatest_of_constant: [f64; 2],
 }
 
-/// State before its checks, with counts that may contradict each other.
+/// Deserialized state, not yet validated: counts may contradict each other.
 #[derive(Deserialize)]
 struct Stored {
     task: DepthTask,

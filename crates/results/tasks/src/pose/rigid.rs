@@ -19,7 +19,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// Zero motion.
+    /// Identity: no rotation and no translation.
     pub const ZERO: Pose = Pose {
         translation_mm: [0.0; 3],
         rotation: Rotation::IDENTITY,

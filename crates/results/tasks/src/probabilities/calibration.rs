@@ -35,7 +35,7 @@ pub(super) fn expected_error(levels: &[Level]) -> Result<f64, Undefined> {
     Ok(sum.to_dyadic().over(&Dyadic::from(n)))
 }
 
-/// Number of positive samples minus the sum of predicted probabilities, in the current bin.
+/// Current bin, and its number of positive samples minus the sum of its predicted probabilities.
 #[derive(Default)]
 struct Bins {
     at: u128,

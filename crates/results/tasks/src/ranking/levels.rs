@@ -8,7 +8,7 @@ use crate::undefined::Undefined;
 /// Numbers of samples with one score.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Level {
-    /// The score.
+    /// Score of these samples.
     pub(crate) score: f64,
     /// Number of samples of the positive class.
     pub(crate) positive: u64,

@@ -6,14 +6,14 @@ use taceva_tasks::{Classes, Ranking, TaskScore};
 
 /// Share of the variance of labels and of scores that the frames of a stroke have in common.
 const COMMON: f64 = 0.3;
-/// Distance of the mean scores of both classes, standard deviations.
+/// Distance between the mean scores of both classes, in standard deviations.
 const DISTANCE: f64 = 1.6;
 /// Score above which slip is predicted.
 const THRESHOLD: f64 = 1.0;
-/// Frames of a stroke.
+/// Number of frames of a stroke.
 const FRAMES: u32 = 25;
 
-/// Strokes of a recording.
+/// Parameters of the strokes of a simulated recording.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Strokes {
     /// Share of frames that slip.
@@ -34,17 +34,17 @@ pub(crate) enum Cluster {
 /// Scores whose intervals are examined.
 pub(crate) const METRICS: [&str; 3] = ["f1", "balanced_accuracy", "average_precision"];
 
-/// Runs in which an interval held the score of infinitely many strokes.
+/// Number of runs in which an interval contained the expected score.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Held {
-    /// Runs whose interval held it.
+    /// Number of runs whose interval contained the expected score.
     pub(crate) held: u32,
-    /// Runs with an interval.
+    /// Number of runs with an interval.
     pub(crate) intervals: u32,
 }
 
 impl Held {
-    /// Share of the intervals that held it.
+    /// Share of intervals that contained the expected score.
     pub(crate) fn share(self) -> f64 {
         f64::from(self.held) / f64::from(self.intervals)
     }
@@ -101,7 +101,7 @@ impl Strokes {
         (0..FRAMES).map(frame).collect()
     }
 
-    /// Scores of one recording, drawn by `seed`. A ranking by single frames costs too much and is left out.
+    /// Scores of one recording, simulated with `seed`. Single frames as clusters give no ranking, which would take too long.
     fn scores(self, cluster: Cluster, seed: u64) -> Vec<TaskScore> {
         let mut random = SplitMix64::new(seed);
         let mut classes = Classes::new(["no_slip", "slip"], Some("slip")).expect("names");

@@ -1,4 +1,4 @@
-//! Shares of the first k places beside exact fractions.
+//! Shares of the first k places, compared with exact fractions.
 
 use crate::golden::{entries, fraction, positions, same, tasks, torchmetrics, value};
 use taceva_tasks::{TaskScore, TopK, Undefined};
