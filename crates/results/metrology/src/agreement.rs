@@ -62,7 +62,7 @@ pub struct Agreement {
     pub sd: f64,
     /// Degrees of freedom of the standard deviation.
     pub freedom: f64,
-    /// Limits of agreement, which contain 95 % of differences: bias ± 1.96 standard deviations.
+    /// Limits of agreement, within which 95 % of differences are expected: bias ± 1.96 standard deviations.
     pub limits: [f64; 2],
     /// 95 % confidence interval of the lower limit.
     pub lower_ci95: [f64; 2],

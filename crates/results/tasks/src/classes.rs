@@ -119,7 +119,7 @@ pub struct ConfusionCell<'a> {
     pub count: u64,
 }
 
-/// Greatest number of classes whose samples are first counted in a table of classes × classes.
+/// Greatest number of classes for which a large batch of samples is counted in a dense table.
 const MOST_DENSE: usize = 256;
 
 impl Classes {

@@ -1,9 +1,9 @@
-//! Content of the page of a task in addition to its scores.
+//! Content of a task's report page besides its scores.
 
 /// Maximum number of samples in [`TaskEvidence::worst`].
 const MOST_WORST: usize = 10;
 
-/// Content of the page of a task in addition to its scores: a curve, delays, and the samples with the greatest errors.
+/// Content of a task's report page besides its scores: a curve, delays, and the samples with the greatest errors.
 ///
 /// ```
 /// use taceva_tasks::{TaskEvidence, WorstSample};

@@ -11,7 +11,7 @@ use crate::score::TaskScore;
 /// Schema of a report of tasks. Version 1.1 added method, standard error and degrees of freedom of each interval.
 pub const TASKS_SCHEMA: &str = "taceva.tasks/1.1";
 
-/// Scores of the tasks whose labels are in a table of the truth, and a table of predictions.
+/// Scores of tasks, from a table of true labels and a table of predictions.
 ///
 /// ```
 /// use taceva_tasks::{TASKS_SCHEMA, TaskReport};
@@ -85,7 +85,7 @@ pub struct TaskScores {
     /// Numbers as a public program computes them, if requested.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub as_published: Vec<PublicNumber>,
-    /// Content of the page of the task besides the scores.
+    /// Content of the task's report page besides its scores.
     #[serde(skip)]
     pub evidence: TaskEvidence,
 }

@@ -72,7 +72,7 @@ pub struct TaskState {
     pub probabilities: Option<Probabilities>,
     /// Ranks of the true class among the scores of all classes.
     pub places: Option<TopK>,
-    /// Sums about true and predicted onsets of an event.
+    /// Sums over the true and predicted onsets of an event.
     pub events: Option<EventState>,
     /// Errors of poses.
     pub pose: Option<PoseState>,

@@ -19,7 +19,7 @@ use taceva_metrics::distributions::student_t;
 impl BudgetText {
     /// Computes one budget for each value of `at`, or a single budget for an expression without `at`.
     ///
-    /// Without an expression, the corrected reading y is y·cos(tilt)·Π(1 + δ_relative) + Σ δ_absolute, where δ is the estimate of a source.
+    /// Without an expression, a reading y is corrected to y·cos(tilt)·Π(1 + δ_relative) + Σ δ_absolute, where δ is the estimate of a source.
     ///
     /// # Errors
     /// [`BudgetError`] with line, key and expectation: invalid numbers, unknown names, figures counted twice, contradicting correlations, a value
@@ -136,7 +136,7 @@ impl BudgetText {
         Ok(budget)
     }
 
-    /// Expression of the file, or the default product and sum. The names in the expression are the sources, then the measurand.
+    /// Expression of the budget file, or the default product and sum. Its names are the sources, then the measurand.
     fn model(&self, inputs: &[Input], at: Option<f64>) -> Result<Expression, BudgetError> {
         if let Some(written) = &self.written.expression {
             let mut names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();

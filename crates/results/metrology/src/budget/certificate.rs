@@ -34,7 +34,7 @@ pub struct Certificate {
     pub serial: String,
     /// Serial number read by the instrument's driver; `None` if the driver reads no serial number.
     pub instrument_serial: Option<String>,
-    /// Coverage of the expanded uncertainties.
+    /// Coverage factor or coverage probability of the expanded uncertainties.
     pub coverage: Coverage,
     /// Expanded uncertainty, constant over all readings.
     pub absolute: f64,

@@ -8,7 +8,7 @@ use super::certificate::Certificate;
 use super::error::{BudgetError, BudgetProblem};
 use super::text::explained;
 
-/// Instruments whose readings become labels.
+/// Instruments whose readings are the true values of a recording.
 const REFERENCES: [Instrument; 2] = [Instrument::Force, Instrument::Robot];
 
 /// Tables of a file that may contain certificates. Other tables are ignored.
@@ -84,7 +84,7 @@ impl Certificate {
         }
     }
 
-    /// Certificates of `channel` among the instruments whose readings become labels.
+    /// Certificates of `channel` among the instruments whose readings are the true values of a recording.
     pub fn of_references(
         all: &[Traceability],
         channel: &str,

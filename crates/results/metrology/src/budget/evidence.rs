@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::certificate::Certificate;
 use super::freedom::Freedom;
 
-/// A measured figure that a source can use, in the unit of the measurand.
+/// Measured uncertainty that a source of a budget can use by name, in the unit of the measurand.
 ///
 /// ```
 /// use taceva_metrology::budget::{Figure, Freedom};
@@ -21,7 +21,7 @@ pub struct Figure {
     pub u: f64,
     /// Degrees of freedom of `u`.
     pub freedom: Freedom,
-    /// Number of rows behind the figure; `None` if unknown.
+    /// Number of rows from which the figure was computed; `None` if unknown.
     pub n: Option<u64>,
     /// Number of clusters among these rows, such as contact points; `None` if unknown.
     pub clusters: Option<u64>,

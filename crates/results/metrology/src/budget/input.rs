@@ -27,7 +27,7 @@ pub(super) struct Input {
 }
 
 impl Input {
-    /// Number of rows of the source, or behind its figure; `None` if unknown.
+    /// Number of rows of the source, or of its figure; `None` if unknown.
     pub(super) fn n(&self) -> Option<u64> {
         let rows = (!self.rows.is_empty()).then_some(self.rows.len() as u64);
         rows.or(self.figure.as_ref().and_then(|figure| figure.n))

@@ -35,7 +35,7 @@ pub struct MonteCarlo {
     pub draws: u64,
     /// Seed of the random draws.
     pub seed: u64,
-    /// True to stop drawing once two digits of u are stable, JCGM 101, 7.9.
+    /// True to stop drawing once two digits of the standard uncertainty are stable, JCGM 101, 7.9.
     pub is_adaptive: bool,
 }
 
@@ -102,7 +102,7 @@ pub struct MonteCarloResult {
     pub end_errors: [f64; 2],
     /// True if the first-order and symmetric intervals agree within the tolerance and twice the standard errors of the ends.
     pub validated: bool,
-    /// Half the last place of u rounded to two digits.
+    /// Half a unit in the last place of `u` rounded to two digits.
     pub tolerance: f64,
     /// True if drawing stopped early because the results were stable.
     pub is_stable: bool,
@@ -189,7 +189,7 @@ struct Joint<'a> {
     members: Vec<usize>,
     lower: Vec<f64>,
     normals: Vec<Draws>,
-    /// Random streams of the Student factor of each member. Members of one set share a stream.
+    /// Random streams of the Student factors, one for each input with a joint draw. Inputs of one set share a stream.
     factors: Vec<Draws>,
 }
 
@@ -280,7 +280,7 @@ fn shortest(sorted: &[f64], coverage: f64) -> [f64; 2] {
     })
 }
 
-/// Results of each block: mean, u and both ends.
+/// Results of each block: mean, standard uncertainty, lower and upper interval end.
 #[derive(Default)]
 struct Stability {
     results: Vec<[f64; 4]>,

@@ -69,7 +69,9 @@ pub(super) fn contributions(inputs: &[Input], expansion: &Expansion) -> Vec<f64>
     slopes.map(|(input, slope)| slope * input.u).collect()
 }
 
-/// ½ tr((HΣ)²) of the Hessian H and the covariance Σ, and the indices with the greatest |Hᵢⱼ| uᵢuⱼ.
+/// Second-order variance ½ tr((HΣ)²) for the Hessian H and the covariance Σ.
+///
+/// Also returns the indices i, j with the greatest |Hᵢⱼ| uᵢ uⱼ, for standard uncertainties u.
 fn second_order(
     inputs: &[Input],
     expansion: &Expansion,

@@ -57,7 +57,7 @@ pub struct Budget {
     pub method: Method,
     /// Sources in the order of the file.
     pub sources: Vec<Source>,
-    /// Nonzero correlations.
+    /// Nonzero correlations between sources.
     pub correlations: Vec<Correlation>,
     /// Monte Carlo result; `None` if not requested.
     pub mcm: Option<MonteCarloResult>,
@@ -120,15 +120,15 @@ pub struct Source {
     pub nu: Freedom,
     /// Sensitivity coefficient, in the unit of the measurand divided by the unit of the source.
     pub c: f64,
-    /// Signed contribution c u.
+    /// Sensitivity coefficient `c` times `u`, with its sign, in the unit of the measurand.
     pub contribution: f64,
     /// Share (c u)² / u² of the combined variance; `None` if that variance is 0. Without correlation the shares sum to 1.
     pub share: Option<f64>,
     /// Measured figure that the source uses; `None` for stated numbers.
     pub from: Option<String>,
-    /// Number of rows behind the figure; `None` if unknown.
+    /// Number of rows from which the figure was computed; `None` if unknown.
     pub n: Option<u64>,
-    /// Number of clusters behind the figure; `None` if unknown.
+    /// Number of clusters, such as contact points, among these rows; `None` if unknown.
     pub clusters: Option<u64>,
     /// Least and greatest true value of the channel in the figure's rows; `None` if unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -179,7 +179,7 @@ impl Missing {
     }
 }
 
-/// Certificate of the reference behind a budget.
+/// Certificate of the reference that a budget relies on.
 ///
 /// ```
 /// # use taceva_metrology::budget::Traceability;

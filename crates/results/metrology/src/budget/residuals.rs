@@ -47,13 +47,13 @@ pub struct Residuals {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Components {
-    /// Mean square MS_b between points, with `points − 1` degrees of freedom.
+    /// Mean square between points. Its degrees of freedom are the number of points less one.
     pub mean_square_between: f64,
-    /// Mean square MS_w within points, with `n − points` degrees of freedom.
+    /// Mean square within points. Its degrees of freedom are the number of rows less the number of points.
     pub mean_square_within: f64,
-    /// Effective number of rows of a point, (n − Σnₚ²/n)/(G − 1), for G points with nₚ rows each.
+    /// Effective number of rows of a point, (n − Σnₚ²/n)/(G − 1), for n rows in G points with nₚ rows each.
     pub n0: f64,
-    /// Standard deviation s_b between points, √max(0, (MS_b − MS_w)/n0), with degrees of freedom by Satterthwaite.
+    /// Standard deviation between points, √max(0, (mean square between − mean square within)/`n0`), with degrees of freedom by Satterthwaite.
     pub between: Figure,
     /// Standard deviation within points: the square root of the mean square within points.
     pub within: Figure,

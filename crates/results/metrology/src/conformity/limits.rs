@@ -20,7 +20,7 @@ pub struct Limits {
     most: Option<f64>,
 }
 
-/// Parsed limits before their check.
+/// Deserialized limits, not yet validated.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Ends {

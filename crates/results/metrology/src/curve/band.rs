@@ -31,7 +31,7 @@ impl std::fmt::Display for CovarianceOf {
     }
 }
 
-/// Value of a curve with the ends of a band, in the unit of y. If both covariances are defined, the wider band is used.
+/// Value of a curve with the ends of a band, in the unit of y. Of the bands from rows and from contact points, the wider is used.
 ///
 /// ```
 /// use taceva_metrology::curve::{CovarianceOf, CurveFit, CurveRow};
@@ -58,7 +58,7 @@ pub struct Band {
     pub covariance: CovarianceOf,
 }
 
-/// Standard uncertainty of a coefficient. If both covariances are defined, the greater uncertainty is used.
+/// Standard uncertainty of a coefficient: the greater of those from independent rows and from contact points.
 ///
 /// ```
 /// use taceva_metrology::curve::{CovarianceOf, CurveFit, CurveRow};

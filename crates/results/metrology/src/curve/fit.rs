@@ -120,7 +120,7 @@ impl CurveFit {
         self.count - 1
     }
 
-    /// Degrees of freedom of the residuals, n − order − 1.
+    /// Degrees of freedom of the residuals: number of rows − order − 1.
     pub fn freedom(&self) -> f64 {
         (self.rows.len() - self.count) as f64
     }

@@ -4,7 +4,7 @@ use super::limits::{Figure, Standing, Table};
 use super::undefined::{CurveUndefined, all_positive, positive, range};
 use taceva_core::whole_size;
 
-/// Upper limits in % of the figures in [`IndicationFigures`]. The limits are not taken from the text of the standard.
+/// Upper limits in % of the figures in [`IndicationFigures`]. A laboratory's workbook states them. They were not compared with the standard.
 const LIMITS: Table = Table {
     standard: "ISO 7500-1",
     figures: &["q", "b", "v", "f_0", "a"],
@@ -95,7 +95,9 @@ pub struct IndicationFigures {
     pub q_mean_u: Option<f64>,
     /// Range of the relative error: greatest `q` minus least `q`, %; `None` for fewer than three repeats.
     pub b: Option<f64>,
-    /// Reversibility, %: true force during loading minus unloading, divided by their mean, at one indicated force. `None` without unloading.
+    /// Reversibility, %: true force of the last repeat minus that during unloading, relative to the mean of the repeats.
+    ///
+    /// The true forces are scaled to one indicated force. `None` without an unloading reading.
     pub v: Option<f64>,
     /// Zero error f_0, the greatest |reading at zero force| divided by the full scale, %; `None` without readings at zero force.
     pub f_0: Option<f64>,
@@ -182,7 +184,7 @@ pub struct IndicationSummary {
     pub median_abs: f64,
     /// 95th percentile over the presses of the relative error's magnitude, %, interpolated between neighbours.
     pub p95_abs: f64,
-    /// Share of presses with a relative error of at most 3 % in magnitude, the loosest limit of `q` in [`IndicationFigures`].
+    /// Share of presses with a relative error of at most 3 % in magnitude, the loosest limit of [`IndicationFigures::q`].
     pub share_within_3: f64,
 }
 

@@ -107,7 +107,7 @@ impl fmt::Display for Standing {
 }
 
 impl Table {
-    /// Standing of `figures`, in the order of the table. `may_have` excludes rows by conditions besides the limits.
+    /// Standing of `figures`, in the order of the table. `may_have` returns false for rows that other conditions exclude.
     pub(super) fn standing(&self, figures: &[Figure], may_have: impl Fn(&str) -> bool) -> Standing {
         let places = || figures.iter().enumerate();
         let known = || places().filter_map(|(at, figure)| Some((at, figure.ok()?)));

@@ -1,4 +1,4 @@
-//! Metrics of predictions equal the functions over slices, bit for bit.
+//! Scores of agreement and of tolerance intervals equal the results of the public functions, bit for bit.
 
 use taceva_core::{Channel, Channels, FieldSet};
 use taceva_metrics::{Evaluation, Evaluator, MetricPlan, Rows, catalogue};

@@ -87,7 +87,7 @@ impl PartMargins {
     }
 }
 
-/// Classes that a mean of F1 counts.
+/// Classes that a mean of F1 includes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Counted {
     /// Classes in the truth or among the predictions.
@@ -129,7 +129,7 @@ impl Margins {
         }
     }
 
-    /// Subtracts the samples of `part`, which these margins must include.
+    /// Subtracts the samples of `part`. These margins must include `part`.
     pub(crate) fn subtract(&mut self, part: &PartMargins) {
         self.n -= part.n;
         for ClassMargin { position, margin } in &part.of {

@@ -52,7 +52,7 @@ const MEASURES: [Measure; 3] = [
 ];
 
 impl DepthState {
-    /// Scores of all maps. Errors are compared with those of the task's constant map, angles of normals with those of a flat surface.
+    /// Scores of all maps. Errors are compared with those of the task's constant map if given, angles of normals with those of a flat surface.
     #[must_use]
     pub fn scores(&self) -> Vec<TaskScore> {
         let clusters = Clusters::of(&self.clusters);

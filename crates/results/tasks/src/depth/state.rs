@@ -177,7 +177,7 @@ impl DepthState {
         self.count(NEGATIVE)
     }
 
-    /// Count `index` of all clusters.
+    /// Sum over all clusters of the count at index `index`.
     fn count(&self, index: usize) -> u64 {
         let clusters = self.clusters.values();
         clusters.map(|cluster| cluster.counts[index]).sum()

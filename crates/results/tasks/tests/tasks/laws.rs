@@ -26,7 +26,7 @@ impl Row {
         self.eighths.map(|eighths| f64::from(eighths) / 8.0)
     }
 
-    /// Probabilities with ties. For scores that are all 0, numbers that are not probabilities.
+    /// Probabilities with ties. Scores that are all 0 give numbers that are not probabilities.
     fn probabilities(&self) -> [f64; 3] {
         let sum: u32 = self.eighths.iter().sum();
         match sum {

@@ -1,4 +1,4 @@
-//! Simulated strokes whose labels and scores are alike within a stroke.
+//! Simulated strokes, whose labels and scores are correlated within a stroke.
 
 use taceva_core::random::SplitMix64;
 use taceva_metrics::distributions::normal;
@@ -22,7 +22,7 @@ pub(crate) struct Strokes {
     pub(crate) strokes: u32,
 }
 
-/// Samples that an interval leaves out together.
+/// Samples that the jackknife of an interval leaves out together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Cluster {
     /// Whole strokes.
@@ -50,7 +50,7 @@ impl Held {
     }
 }
 
-/// A normal number by its quantile.
+/// Draws a standard normal number by inverting its distribution.
 fn normal_number(random: &mut SplitMix64) -> f64 {
     // In the middle of a step of 2⁻⁵³, so never 0.
     normal::quantile(random.unit() + 0.5_f64.powi(54))
@@ -65,7 +65,7 @@ struct Frame {
 impl Strokes {
     /// Scores of infinitely many strokes, in the order of [`METRICS`].
     pub(crate) fn expected(self) -> [f64; 3] {
-        /// Step of the sum over thresholds, standard deviations.
+        /// Step of the sum over thresholds, in standard deviations.
         const STEP: f64 = 1e-3;
         let [hits, alarms] = [
             normal::below(DISTANCE - THRESHOLD),

@@ -1,4 +1,4 @@
-//! Figures that include others; budgets reject counting an effect twice.
+//! Figures that include other figures. A budget must not count an effect twice.
 
 use taceva_metrology::budget::{Budget, BudgetError, BudgetText, Evidence, Figure, Freedom};
 

@@ -1,4 +1,4 @@
-//! Studies and settings without a result.
+//! Studies and settings that are rejected.
 
 use taceva_metrology::gauge::{
     Design, Flag, GaugeError, GaugeReport, GaugeSettings, GaugeStudy, Method, NdcReason,
