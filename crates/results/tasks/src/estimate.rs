@@ -78,7 +78,7 @@ pub(crate) struct Part {
     pub(crate) value: Result<f64, Undefined>,
 }
 
-/// Estimate from the score of all clusters and the scores without each cluster. Clusters without a sample are skipped.
+/// Estimate from the score of all clusters, and the scores with one cluster left out each. Clusters without a sample are skipped.
 pub(crate) fn estimate(
     value: Result<f64, Undefined>,
     range: Range,

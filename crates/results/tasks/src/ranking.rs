@@ -44,7 +44,7 @@ pub struct Ranking {
     clusters: ByCluster<Counts>,
 }
 
-/// Function that computes a measure from levels in ascending order.
+/// Function that computes a measure from the counts of each score, in ascending order of scores.
 type Value = fn(&[Level]) -> Result<f64, Undefined>;
 
 /// Number of positive and negative samples of each score.

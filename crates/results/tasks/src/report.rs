@@ -78,7 +78,7 @@ pub struct TaskScores {
     pub positive: Option<String>,
     /// Remarks on labels and predictions, such as rows without a label.
     pub notes: Vec<String>,
-    /// Scores, with the scores of the task first.
+    /// Scores: first of the whole task, then of single classes.
     pub scores: Vec<TaskScore>,
     /// Counts above 0 of true and predicted classes.
     pub confusion: Vec<ConfusionCount>,

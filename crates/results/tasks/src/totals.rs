@@ -100,7 +100,7 @@ struct Without<'a, const SUMS: usize, const COUNTS: usize> {
     rest: Totals<SUMS, COUNTS>,
 }
 
-/// Totals of all clusters, and totals without each cluster.
+/// Totals of all clusters, and for each cluster the totals of all others.
 #[derive(Debug)]
 pub(crate) struct LeaveOneOut<'a, const SUMS: usize, const COUNTS: usize> {
     total: Totals<SUMS, COUNTS>,

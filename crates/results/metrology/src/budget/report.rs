@@ -55,7 +55,7 @@ pub struct Budget {
     pub interval: Option<[f64; 2]>,
     /// Method of the coverage interval.
     pub method: Method,
-    /// Sources in the order of the file.
+    /// Sources in the order of the budget file.
     pub sources: Vec<Source>,
     /// Nonzero correlations between sources.
     pub correlations: Vec<Correlation>,

@@ -1,4 +1,4 @@
-//! Converts sources of the file, with their measured figures, to inputs of the model.
+//! Converts sources of the budget file, with their measured figures, to inputs of the model.
 
 mod keys;
 mod measurement;
@@ -54,7 +54,7 @@ impl Numbers {
 }
 
 impl Reader<'_> {
-    /// Inputs of all sources, in the order of the file.
+    /// Inputs of all sources, in the order of the budget file.
     pub(super) fn inputs(&self) -> Result<Vec<Input>, BudgetError> {
         let mut inputs: Vec<Input> = Vec::new();
         for written in &self.text.written.source {

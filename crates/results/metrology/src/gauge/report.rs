@@ -301,7 +301,7 @@ pub struct GaugeReport {
     pub tolerance: Option<f64>,
     /// Number of distinct categories.
     pub ndc: Ndc,
-    /// AIAG class of the gauge; `None` for errors as readings, or without variation.
+    /// AIAG class of the gauge. `None` if the readings are errors, or do not vary.
     pub band: Option<Band>,
     /// AIAG classes of both ends of the gauge's confidence interval; `None` if `band` is `None`.
     pub band_ci95: Option<[Band; 2]>,

@@ -110,7 +110,7 @@ pub(crate) struct Margins {
 type Score = Result<f64, Undefined>;
 
 impl Margins {
-    /// Margins without samples, for `classes` classes.
+    /// Counts of 0 for each of `classes` classes.
     pub(crate) fn empty(classes: usize) -> Margins {
         Margins {
             n: 0,

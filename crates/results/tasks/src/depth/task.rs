@@ -106,7 +106,7 @@ impl DepthTask {
         self.pixel_mm
     }
 
-    /// Constant to beat; `None` if not given.
+    /// Constant depth map to beat; `None` if not given.
     pub(super) fn constant(&self) -> Option<&DepthMap> {
         self.constant.as_ref()
     }

@@ -12,7 +12,7 @@ use crate::score::{ScoreFlag, TaskScore};
 use crate::totals::{LeaveOneOut, error, signed};
 use crate::undefined::Undefined;
 
-/// Totals of all clusters of sequences, and totals without each cluster.
+/// Totals of all clusters of sequences, and for each cluster the totals of all others.
 type Clusters<'a> = LeaveOneOut<'a, 2, 6>;
 
 impl EventState {

@@ -1,4 +1,4 @@
-//! Sorted scores of each class, and their counts score by score.
+//! Sorted scores of each class, and the number of samples with each score.
 
 use std::iter::from_fn;
 

@@ -25,7 +25,7 @@ const CLOUDS: usize = 0;
 
 /// Totals of the pairs of clouds in one cluster.
 type ShapeTotals = Totals<4, 1>;
-/// Totals of all clusters, and totals without each cluster.
+/// Totals of all clusters, and for each cluster the totals of all others.
 type Clusters<'a> = LeaveOneOut<'a, 4, 1>;
 /// Function from totals to a value.
 type ValueOf = fn(&ShapeTotals) -> Result<f64, Undefined>;
@@ -156,7 +156,7 @@ impl ShapeState {
         Ok(self)
     }
 
-    /// Scores of the state: means over all pairs of clouds.
+    /// Scores of the task: means over all pairs of clouds.
     #[must_use]
     pub fn scores(&self) -> Vec<TaskScore> {
         let clusters = Clusters::of(&self.clusters);
