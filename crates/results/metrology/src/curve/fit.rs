@@ -164,7 +164,7 @@ impl CurveFit {
         (0..self.count).map(row).collect()
     }
 
-    /// Row i: weights of the coefficients of z, the centred and scaled x, in the coefficient of xⁱ, by the binomial theorem.
+    /// Converts coefficients of the scaled polynomial to coefficients of x⁰ to x³, by the binomial theorem. Row i gives that of xⁱ.
     pub(super) fn powers_of_x(&self) -> Square {
         const CHOOSE: Square = [
             [1.0, 1.0, 1.0, 1.0],

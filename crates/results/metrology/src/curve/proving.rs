@@ -4,7 +4,7 @@ use super::fit::{CurveFit, CurveRow};
 use super::limits::{Figure, Standing, Table};
 use super::undefined::{CurveUndefined, all_positive, range};
 
-/// Upper limits of the [`ProvingFigures`] b, b', f_c, f_0, v and c in %, not compared with the text of the standard.
+/// Upper limits in % of the figures of [`ProvingLevel`] and [`ProvingFigures`]. They were not compared with the standard.
 const LIMITS: Table = Table {
     standard: "ISO 376",
     figures: &["b", "b'", "f_c", "f_0", "v", "c"],
