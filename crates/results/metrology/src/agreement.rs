@@ -11,7 +11,7 @@
 //! ```
 //!
 //! # Reference
-//! Bland and Altman, Lancet 327 (1986); Carkeet, Optometry and Vision Science 92 (2015), exact ends; Satterthwaite, Biometrics Bulletin 2
+//! Bland and Altman, Lancet 327 (1986); Carkeet, Optometry and Vision Science 92 (2015), exact intervals; Satterthwaite, Biometrics Bulletin 2
 //! (1946), clusters.
 
 use serde::{Deserialize, Serialize};
@@ -54,7 +54,7 @@ pub struct Agreement {
     pub n: u64,
     /// Number of clusters; `None` for independent pairs.
     pub clusters: Option<u64>,
-    /// Mean difference.
+    /// Mean difference over all pairs, first method minus second.
     pub bias: f64,
     /// 95 % confidence interval of the bias.
     pub bias_ci95: [f64; 2],
@@ -62,13 +62,13 @@ pub struct Agreement {
     pub sd: f64,
     /// Degrees of freedom of the standard deviation.
     pub freedom: f64,
-    /// Limits of agreement, which contain 95 % of differences: bias ± 1.96 standard deviations.
+    /// Limits of agreement, within which 95 % of differences are expected: bias ± 1.96 standard deviations.
     pub limits: [f64; 2],
     /// 95 % confidence interval of the lower limit.
     pub lower_ci95: [f64; 2],
     /// 95 % confidence interval of the upper limit.
     pub upper_ci95: [f64; 2],
-    /// Trend of the difference with the mean of the pair; `None` for clusters, or if all means are equal.
+    /// Trend of the difference with the mean of the pair; `None` for clustered pairs, or if all means are equal.
     pub proportional: Option<Proportional>,
 }
 
@@ -90,8 +90,8 @@ impl Agreement {
 
     /// Agreement of clustered pairs. Differences may be correlated within a cluster.
     ///
-    /// The standard deviation includes both variance components, with degrees of freedom by Satterthwaite. Interval ends are therefore
-    /// approximate, and too narrow if clusters differ in spread.
+    /// The standard deviation includes the variance between and within clusters, with degrees of freedom by Satterthwaite. Interval ends are
+    /// therefore approximate, and too narrow if clusters differ in spread.
     ///
     /// `None` for fewer than two clusters, no cluster with two pairs, a value that is not finite, or no variation.
     ///

@@ -1,4 +1,4 @@
-//! Shares of 95 % intervals that contain the score of infinitely many strokes, as a table for `docs/coverage.md`.
+//! Shares of 95 % intervals that contain the score expected for endless data, as a table for `docs/coverage.md`.
 
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
 

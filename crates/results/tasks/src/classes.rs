@@ -37,7 +37,7 @@ pub struct Classes {
     clusters: ByCluster<Cells>,
 }
 
-/// State before its checks, with counts that may contradict the names.
+/// Deserialized state, not yet validated: counts may contradict the names.
 #[derive(Deserialize)]
 struct Stored {
     names: Names,
@@ -68,10 +68,10 @@ impl TryFrom<Stored> for Classes {
     }
 }
 
-/// Samples by their true and their predicted class.
+/// Number of samples of each pair of true and predicted class.
 type Cells = BTreeMap<Cell, u64>;
 
-/// Position of the true class, then of the predicted class; in files `truth>predicted`.
+/// True and predicted class, as positions among the names; in files `truth>predicted`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 struct Cell {
@@ -119,7 +119,7 @@ pub struct ConfusionCell<'a> {
     pub count: u64,
 }
 
-/// Greatest number of classes whose samples are first counted in a table of classes × classes.
+/// Greatest number of classes for which a large batch of samples is counted in a dense table.
 const MOST_DENSE: usize = 256;
 
 impl Classes {

@@ -52,7 +52,7 @@ pub enum TaskError {
     /// Two classes with the same name.
     #[error("names: \"{}\" occurs twice, expected each name once", shown(.name))]
     SameName {
-        /// The name.
+        /// Repeated name.
         name: String,
     },
     /// A positive class that the task does not name.
@@ -98,16 +98,16 @@ pub enum TaskError {
     /// A stored state that no samples can produce.
     #[error("a stored state has {}, which no samples give; score the samples again", shown(.found))]
     Damaged {
-        /// Part found.
+        /// Invalid part of the state.
         found: String,
     },
-    /// A sequence with rows in two states.
+    /// A sequence whose frames are divided among two merged states.
     #[error(
         "cluster \"{}\" has rows in both states, but onsets and a debounce need its whole sequence; divide tables between clusters",
         shown(.cluster)
     )]
     DividedSequence {
-        /// The cluster.
+        /// Cluster of the sequence.
         cluster: String,
     },
     /// A merge of states with different definitions.

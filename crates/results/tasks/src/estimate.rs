@@ -49,7 +49,9 @@ impl Estimate {
     }
 }
 
-/// `{value, undefined, ci95, method, standard_error, degrees_of_freedom, n, clusters, of_constant}`; `undefined` is the reason for a missing value.
+/// JSON form `{value, undefined, ci95, method, standard_error, degrees_of_freedom, n, clusters, of_constant}`.
+///
+/// The key `undefined` is the reason for a missing value.
 impl Serialize for Estimate {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut into = serializer.serialize_struct("Estimate", 9)?;
@@ -76,7 +78,7 @@ pub(crate) struct Part {
     pub(crate) value: Result<f64, Undefined>,
 }
 
-/// Estimate from the score of all clusters and the scores without each cluster. Clusters without a sample are skipped.
+/// Estimate from the score of all clusters, and the scores with one cluster left out each. Clusters without a sample are skipped.
 pub(crate) fn estimate(
     value: Result<f64, Undefined>,
     range: Range,

@@ -1,9 +1,9 @@
-//! Content of the page of a task in addition to its scores.
+//! Content of a task's report page besides its scores.
 
-/// Maximum number of listed samples.
+/// Maximum number of samples in [`TaskEvidence::worst`].
 const MOST_WORST: usize = 10;
 
-/// Content of the page of a task in addition to its scores: a curve, delays, and the samples with the greatest errors.
+/// Content of a task's report page besides its scores: a curve, delays, and the samples with the greatest errors.
 ///
 /// ```
 /// use taceva_tasks::{TaskEvidence, WorstSample};
@@ -30,9 +30,9 @@ pub struct TaskEvidence {
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurvePoint {
-    /// Share of positive samples that are found.
+    /// Share of positive samples with a score above the threshold.
     pub recall: f64,
-    /// Share of found samples that are positive.
+    /// Share of positive samples among the samples above the threshold.
     pub precision: f64,
 }
 

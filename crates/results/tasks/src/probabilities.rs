@@ -41,7 +41,7 @@ pub struct Probabilities {
     ranking: Ranking,
 }
 
-/// State before its checks, with counts that may contradict each other.
+/// Deserialized state, not yet validated: counts may contradict each other.
 #[derive(Deserialize)]
 struct Stored {
     names: Names,

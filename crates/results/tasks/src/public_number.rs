@@ -28,7 +28,7 @@ pub enum PublicProgram {
 }
 
 impl PublicProgram {
-    /// Every program.
+    /// All public programs.
     pub const ALL: [PublicProgram; 4] = [
         PublicProgram::Sparsh,
         PublicProgram::TouchAndGo,
@@ -101,7 +101,7 @@ impl Serialize for PublicProgram {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PublicNumber {
-    /// The program.
+    /// Public program that computes the number.
     pub program: PublicProgram,
     /// Name of the number, as the program prints it.
     pub number: String,

@@ -44,10 +44,10 @@ pub struct Ranking {
     clusters: ByCluster<Counts>,
 }
 
-/// Function that computes a measure from levels in ascending order.
+/// Function that computes a measure from the counts of each score, in ascending order of scores.
 type Value = fn(&[Level]) -> Result<f64, Undefined>;
 
-/// Samples by their score.
+/// Number of positive and negative samples of each score.
 type Counts = BTreeMap<ScoreKey, Sides>;
 
 /// Maximum number of distinct scores that are not rounded.
@@ -74,7 +74,7 @@ impl Ranking {
         self.push_rows(cluster, &[score], &[is_positive])
     }
 
-    /// Adds the samples of `cluster`, sorted once.
+    /// Adds the samples of `cluster`. One call for many samples sorts only once.
     ///
     /// # Errors
     /// [`TaskError::OtherLength`], or [`TaskError::NotFinite`] for a score that is NaN or infinite. No sample is added on an error.
@@ -213,7 +213,7 @@ impl Ranking {
         flags
     }
 
-    /// Applies `value` to all samples, and `of_rest` to the samples without each cluster.
+    /// Applies `value` to all samples, and for each cluster `of_rest` to the samples of all other clusters.
     ///
     /// Each cluster is subtracted from a single list of levels and added again, to save memory.
     pub(crate) fn value_and_parts(
@@ -245,7 +245,7 @@ impl Ranking {
         (of_all, parts)
     }
 
-    /// Levels in ascending order.
+    /// Counts of each distinct score, in ascending order of scores.
     fn levels(&self) -> Vec<Level> {
         let levels = self.all.iter();
         levels

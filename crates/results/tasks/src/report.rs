@@ -11,7 +11,7 @@ use crate::score::TaskScore;
 /// Schema of a report of tasks. Version 1.1 added method, standard error and degrees of freedom of each interval.
 pub const TASKS_SCHEMA: &str = "taceva.tasks/1.1";
 
-/// Scores of the tasks of two tables.
+/// Scores of tasks, from a table of true labels and a table of predictions.
 ///
 /// ```
 /// use taceva_tasks::{TASKS_SCHEMA, TaskReport};
@@ -67,7 +67,7 @@ pub struct TaskScores {
     pub name: String,
     /// Kind of the task: `class`, `event`, `outcome`, `pose`, `place` or `depth`.
     pub kind: String,
-    /// Column with the clusters.
+    /// Table column that names the cluster of each row.
     pub cluster: String,
     /// Names of the clusters in order, for paired comparisons. Reports omit these names.
     #[serde(skip)]
@@ -78,14 +78,14 @@ pub struct TaskScores {
     pub positive: Option<String>,
     /// Remarks on labels and predictions, such as rows without a label.
     pub notes: Vec<String>,
-    /// Scores, with the scores of the task first.
+    /// Scores: first of the whole task, then of single classes.
     pub scores: Vec<TaskScore>,
     /// Counts above 0 of true and predicted classes.
     pub confusion: Vec<ConfusionCount>,
     /// Numbers as a public program computes them, if requested.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub as_published: Vec<PublicNumber>,
-    /// Content of the page of the task besides the scores.
+    /// Content of the task's report page besides its scores.
     #[serde(skip)]
     pub evidence: TaskEvidence,
 }

@@ -24,11 +24,11 @@ pub struct TaskScore {
     pub variant: Option<String>,
     /// Unit of the value; `None` for a pure number.
     pub unit: Option<&'static str>,
-    /// Definition in words, with the rules that were applied before.
+    /// Definition in words, with the rules that were applied to the predictions.
     pub definition: String,
     /// Value, interval and counts.
     pub estimate: Estimate,
-    /// Interval of a share as if frames were independent, unlike the interval of `estimate`; `None` for other scores.
+    /// Interval of a share as if frames were independent, for comparison with `estimate`; `None` for other scores.
     pub if_frames_were_independent: Option<Interval>,
     /// Properties of the samples that limit the score.
     pub flags: Vec<ScoreFlag>,
@@ -75,13 +75,13 @@ impl TaskScore {
         "chamfer",
     ];
 
-    /// Direction of good values.
+    /// Direction in which values of the score improve.
     #[must_use]
     pub fn better(&self) -> Better {
         TaskScore::direction(self.metric, self.unit)
     }
 
-    /// Direction of good values of `metric`, whose values have `unit`; `None` is the unit of a pure number.
+    /// Direction in which values of `metric` improve. `unit` is the unit of the values, `None` for a pure number.
     ///
     /// ```
     /// use taceva_metrics::Better;
@@ -145,7 +145,7 @@ impl TaskScore {
         }
     }
 
-    /// The same score with Wilson's interval of `hits` of `trials`, as if frames were independent; without this interval for 0 trials.
+    /// The same score with Wilson's interval of `hits` of `trials`, as if frames were independent. No such interval for 0 trials.
     pub(crate) fn beside(self, hits: u64, trials: u64) -> TaskScore {
         let wilson = (trials > 0).then(|| Interval::wilson(hits, trials));
         TaskScore {

@@ -58,7 +58,7 @@ impl PublishedShare {
         Z * sd / ratio(u128::from(samples), 1).sqrt()
     }
 
-    /// The share.
+    /// Share of right samples.
     #[must_use]
     pub fn value(&self) -> f64 {
         ratio(u128::from(self.hits), u128::from(self.samples))

@@ -53,7 +53,7 @@ pub struct TaskState {
     pub name: String,
     /// Kind of the task: `class`, `event`, `outcome`, `pose`, `place` or `depth`.
     pub kind: String,
-    /// Column with the clusters.
+    /// Table column that names the cluster of each row.
     pub cluster: String,
     /// Remarks on labels and predictions.
     pub notes: Vec<String>,
@@ -70,9 +70,9 @@ pub struct TaskState {
     pub ranking: Option<Ranking>,
     /// Scores of all classes, as probabilities.
     pub probabilities: Option<Probabilities>,
-    /// Places of the true class.
+    /// Ranks of the true class among the scores of all classes.
     pub places: Option<TopK>,
-    /// Onsets of an event.
+    /// Sums over the true and predicted onsets of an event.
     pub events: Option<EventState>,
     /// Errors of poses.
     pub pose: Option<PoseState>,
@@ -80,7 +80,7 @@ pub struct TaskState {
     pub euler: Option<EulerErrors>,
     /// Errors of depth maps.
     pub depth: Option<DepthState>,
-    /// Samples with the greatest errors, for pages. Files of states omit them.
+    /// Samples with the greatest errors, for pages. Files of states omit these samples.
     #[serde(skip)]
     pub evidence: TaskEvidence,
 }
@@ -270,7 +270,7 @@ fn remarks_on_maps(state: &DepthState) -> Vec<String> {
     remarks.into_iter().flatten().collect()
 }
 
-/// Merges two parts. A part that only one state has is refused.
+/// Merges a part of both states. Refuses a part that only one state has.
 fn both<T>(
     what: &'static str,
     ours: Option<T>,

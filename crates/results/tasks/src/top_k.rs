@@ -35,7 +35,7 @@ pub struct TopK {
     clusters: ByCluster<Places>,
 }
 
-/// State before its checks, with counts that may contradict the names.
+/// Deserialized state, not yet validated: counts may contradict the names.
 #[derive(Deserialize)]
 struct Stored {
     names: Names,
@@ -111,7 +111,7 @@ enum Ties {
 }
 
 impl Place {
-    /// Part of a sample that counts as found within the first `k` places.
+    /// Weight from 0 to 1 with which a sample counts as found within the first `k` places.
     fn found(self, k: u64, ties: Ties) -> Quotient {
         let free = k.saturating_sub(self.above).min(self.equal);
         let whole = |is_found: bool| Quotient {

@@ -12,7 +12,7 @@ use crate::undefined::Undefined;
 /// Exact sums and counts of a cluster.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Totals<const SUMS: usize, const COUNTS: usize> {
-    /// Sums of numbers.
+    /// Sums, such as of errors.
     pub(crate) sums: [ExactSum; SUMS],
     /// Counts, such as pixels or poses.
     pub(crate) counts: [u64; COUNTS],
@@ -38,7 +38,7 @@ impl<const SUMS: usize, const COUNTS: usize> Totals<SUMS, COUNTS> {
         }
     }
 
-    /// Subtracts the totals of `other`, which these totals must include.
+    /// Subtracts the totals of `other`. These totals must include `other`.
     fn subtract(&mut self, other: &Totals<SUMS, COUNTS>) {
         for (sum, other) in self.sums.iter_mut().zip(&other.sums) {
             sum.subtract(other);
@@ -100,7 +100,7 @@ struct Without<'a, const SUMS: usize, const COUNTS: usize> {
     rest: Totals<SUMS, COUNTS>,
 }
 
-/// Totals of all clusters, and totals without each cluster.
+/// Totals of all clusters, and for each cluster the totals of all others.
 #[derive(Debug)]
 pub(crate) struct LeaveOneOut<'a, const SUMS: usize, const COUNTS: usize> {
     total: Totals<SUMS, COUNTS>,
@@ -169,12 +169,12 @@ impl<'a, const SUMS: usize, const COUNTS: usize> LeaveOneOut<'a, SUMS, COUNTS> {
     }
 }
 
-/// Range of values of an error: positive.
+/// Range of an error: positive numbers.
 pub(crate) fn error(_: Result<f64, Undefined>) -> Range {
     Range::Positive
 }
 
-/// Range of values of a signed number: any.
+/// Range of a signed number: all numbers.
 pub(crate) fn signed(_: Result<f64, Undefined>) -> Range {
     Range::Any
 }

@@ -26,7 +26,7 @@ pub enum Undefined {
     NoNegative,
     /// Some scores are not probabilities: outside 0 to 1, or with a sum other than 1 over the classes.
     NotProbabilities,
-    /// A class of probability 0 came true, so the logarithmic loss is infinite.
+    /// A sample's true class has probability 0, so the logarithmic loss is infinite.
     InfiniteLoss,
     /// The first k places contain all classes.
     TooManyPlaces,
@@ -48,12 +48,12 @@ pub enum Undefined {
     NoMatch,
     /// A sequence has no times.
     NoTimes,
-    /// No time passes in any sequence.
+    /// All sequences have a duration of 0.
     NoDuration,
 }
 
 impl Undefined {
-    /// The reason for the interval of a score without a value.
+    /// Reason for the missing interval of a score without a value.
     pub(crate) fn of_interval(self) -> UndefinedReason {
         match self {
             Undefined::Empty => UndefinedReason::Empty,

@@ -7,14 +7,14 @@ use taceva_core::Unit;
 
 use super::error::BudgetProblem;
 
-/// Amount as written in the file.
+/// Amount as written in the budget file.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Amount {
     Number(f64),
     Text(String),
 }
 
-/// Expected quantity of an amount.
+/// Quantity and unit that a key of the budget file expects.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Wanted {
     /// A value in this unit.

@@ -1,4 +1,4 @@
-//! Computes budgets from the parsed file and the measured figures.
+//! Computes budgets from a parsed budget file and its measured figures.
 
 use super::correlation::Correlations;
 use super::error::{BudgetError, BudgetProblem};
@@ -19,7 +19,7 @@ use taceva_metrics::distributions::student_t;
 impl BudgetText {
     /// Computes one budget for each value of `at`, or a single budget for an expression without `at`.
     ///
-    /// Source estimates are corrections: Y = ŷ·cos(tilt)·Π(1 + δ_relative) + Σ δ_absolute, or the expression.
+    /// Without an expression, a reading y is corrected to y·cos(tilt)·Π(1 + δ_relative) + Σ δ_absolute, where δ is the estimate of a source.
     ///
     /// # Errors
     /// [`BudgetError`] with line, key and expectation: invalid numbers, unknown names, figures counted twice, contradicting correlations, a value
@@ -136,7 +136,7 @@ impl BudgetText {
         Ok(budget)
     }
 
-    /// Expression of the file, or the default product and sum. The names in the expression are the sources, then the measurand.
+    /// Expression of the budget file, or the default product and sum. Its names are the sources, then the measurand.
     fn model(&self, inputs: &[Input], at: Option<f64>) -> Result<Expression, BudgetError> {
         if let Some(written) = &self.written.expression {
             let mut names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
@@ -201,7 +201,7 @@ impl Budget {
         self.warnings.push(warning.into());
     }
 
-    /// Adds the Monte Carlo result, which also gives the interval unless the first-order interval is confirmed.
+    /// Stores the Monte Carlo result. Its interval replaces the first-order interval unless the two agree.
     fn take_draws(
         &mut self,
         mut drawn: MonteCarloResult,

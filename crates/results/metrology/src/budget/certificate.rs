@@ -4,7 +4,7 @@ use super::freedom::Freedom;
 use taceva_core::{Coverage, Date, Traceability};
 use taceva_metrics::distributions::student_t;
 
-/// Coverage factor; `None` unless k is above 0 or p is in 0..1.
+/// Coverage factor k; `None` for k ≤ 0, or for a coverage probability outside 0..1.
 pub(super) fn factor(coverage: Coverage) -> Option<f64> {
     match coverage {
         Coverage::Factor(k) => (k > 0.0 && k.is_finite()).then_some(k),
@@ -34,7 +34,7 @@ pub struct Certificate {
     pub serial: String,
     /// Serial number read by the instrument's driver; `None` if the driver reads no serial number.
     pub instrument_serial: Option<String>,
-    /// Coverage of the expanded uncertainties.
+    /// Coverage factor or coverage probability of the expanded uncertainties.
     pub coverage: Coverage,
     /// Expanded uncertainty, constant over all readings.
     pub absolute: f64,
@@ -106,7 +106,7 @@ impl Certificate {
         })
     }
 
-    /// Standard uncertainty at a reading: u² = (U/k)² + (U_relative × reading / k)². `None` for an invalid coverage.
+    /// Standard uncertainty at `reading`: √(absolute² + (relative × reading)²) / coverage factor. `None` for an invalid coverage.
     pub fn standard_uncertainty(&self, reading: f64) -> Option<f64> {
         let k = factor(self.coverage)?;
         Some((self.absolute / k).hypot(self.relative * reading / k))

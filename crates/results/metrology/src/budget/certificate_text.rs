@@ -8,7 +8,7 @@ use super::certificate::Certificate;
 use super::error::{BudgetError, BudgetProblem};
 use super::text::explained;
 
-/// Instruments whose readings become labels.
+/// Instruments whose readings are the true values of a recording.
 const REFERENCES: [Instrument; 2] = [Instrument::Force, Instrument::Robot];
 
 /// Tables of a file that may contain certificates. Other tables are ignored.
@@ -29,7 +29,7 @@ struct Device {
 }
 
 impl Certificate {
-    /// Reads the certificate of the reference of `channel` for a recording of this day.
+    /// Reads the certificate of the reference of `channel` for a recording made on `recorded_on`.
     ///
     /// ```
     /// use taceva_metrology::budget::Certificate;
@@ -48,7 +48,7 @@ impl Certificate {
     /// ```
     ///
     /// # Errors
-    /// [`BudgetError`] with the line of invalid TOML or of an inconsistent certificate. Also if no certificate, or more than one, states this channel.
+    /// [`BudgetError`] with the line of invalid TOML or of an inconsistent certificate. Also if none or several state `channel`.
     pub fn read(
         text: &str,
         channel: &str,
@@ -84,7 +84,7 @@ impl Certificate {
         }
     }
 
-    /// Certificates of `channel` among the instruments whose readings become labels.
+    /// Certificates of `channel` among the instruments whose readings are the true values of a recording.
     pub fn of_references(
         all: &[Traceability],
         channel: &str,

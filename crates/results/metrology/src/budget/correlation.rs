@@ -7,7 +7,7 @@ use super::input::Input;
 use super::source::{deviations, unknown};
 use super::text::{BudgetText, value};
 
-/// Least eigenvalue that rounding can cause.
+/// Negative eigenvalues above this bound are taken for rounding errors.
 const ROUNDING: f64 = -1e-12;
 
 /// Symmetric matrix of correlation coefficients.
@@ -88,7 +88,7 @@ impl Correlations {
         Ok(found)
     }
 
-    /// Adds correlations of inputs whose rows were read together. Inputs of a set have equal degrees of freedom.
+    /// Computes correlations of inputs with the same `set` key from their rows. Such inputs need equal degrees of freedom.
     fn add_rows(&mut self, text: &BudgetText, inputs: &[Input]) -> Result<(), BudgetError> {
         for second in 0..inputs.len() {
             for first in 0..second {
@@ -141,7 +141,7 @@ impl Correlations {
         (0..self.count).any(|other| other != at && self.get(at, other).abs() > 0.0)
     }
 
-    /// Least eigenvalue, by Jacobi rotations.
+    /// Least eigenvalue of this matrix, by Jacobi rotations.
     fn least_eigenvalue(&self) -> f64 {
         const SWEEPS: usize = 50;
         let n = self.count;
@@ -201,17 +201,17 @@ impl Correlations {
 }
 
 impl Input {
-    /// True if both inputs belong to the same set.
+    /// True if both inputs have the same `set` key, so that their values were read together.
     pub(super) fn is_of_set_of(&self, other: &Input) -> bool {
         self.set.is_some() && self.set == other.set
     }
 
-    /// True if both inputs have rows of the same set.
+    /// True if both inputs have rows and the same `set` key.
     fn is_read_with(&self, other: &Input) -> bool {
         self.is_of_set_of(other) && !self.rows.is_empty() && !other.rows.is_empty()
     }
 
-    /// True if the degrees of freedom are a finite number.
+    /// True if the input has a finite number of degrees of freedom.
     pub(super) fn is_of_finite_freedom(&self) -> bool {
         matches!(self.freedom, Freedom::Finite(_))
     }

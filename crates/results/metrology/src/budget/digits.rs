@@ -18,7 +18,7 @@ pub fn two_digits(expanded: f64) -> f64 {
     }
 }
 
-/// Exponent of the first digit after rounding to two digits; 0 for 0.
+/// Decimal exponent of `number` rounded to two digits; 0 for 0.
 pub(super) fn exponent(number: f64) -> i32 {
     let text = format!("{number:.1e}");
     text.rsplit('e')

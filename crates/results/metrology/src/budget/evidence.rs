@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::certificate::Certificate;
 use super::freedom::Freedom;
 
-/// A measured figure that a source can use, in the unit of the measurand.
+/// Measured uncertainty that a source of a budget can use by name, in the unit of the measurand.
 ///
 /// ```
 /// use taceva_metrology::budget::{Figure, Freedom};
@@ -15,21 +15,21 @@ use super::freedom::Freedom;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Figure {
-    /// Estimate: a correction added to the reading, usually 0. For `drift`, the slope per hour.
+    /// Estimate: a correction added to the reading, usually 0. For the figure `drift`, the slope per hour.
     pub value: f64,
     /// Standard uncertainty.
     pub u: f64,
     /// Degrees of freedom of `u`.
     pub freedom: Freedom,
-    /// Number of rows behind the figure; `None` if unknown.
+    /// Number of rows from which the figure was computed; `None` if unknown.
     pub n: Option<u64>,
     /// Number of clusters among these rows, such as contact points; `None` if unknown.
     pub clusters: Option<u64>,
-    /// Least and greatest label of these rows; `None` if unknown.
+    /// Least and greatest true value of the channel in these rows; `None` if unknown.
     pub labels: Option<[f64; 2]>,
     /// Digest of the figure's source file; `None` if unknown.
     pub digest: Option<String>,
-    /// Reservation that every output repeats; `None` for no reservation.
+    /// Caveat that every output repeats; `None` for no caveat.
     pub note: Option<String>,
 }
 
@@ -48,7 +48,7 @@ impl Figure {
         }
     }
 
-    /// Drift of idle readings, in units of the measurand per hour.
+    /// Figure of a drift of idle readings, in units of the measurand per hour.
     pub fn of_drift(slope_per_hour: f64) -> Figure {
         Figure {
             value: slope_per_hour,

@@ -4,7 +4,7 @@ use super::evidence::Figure;
 use super::freedom::Freedom;
 use super::shape::Shape;
 
-/// Resolved source: an input of the model.
+/// Input of the model: a source with its estimate and uncertainty as numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Input {
     pub(super) name: String,
@@ -27,13 +27,13 @@ pub(super) struct Input {
 }
 
 impl Input {
-    /// Number of rows of the source, or behind its figure; `None` if unknown.
+    /// Number of rows of the source, or of its figure; `None` if unknown.
     pub(super) fn n(&self) -> Option<u64> {
         let rows = (!self.rows.is_empty()).then_some(self.rows.len() as u64);
         rows.or(self.figure.as_ref().and_then(|figure| figure.n))
     }
 
-    /// Reservation of the figure; `None` without a reservation.
+    /// Caveat of the figure, after the name of the source; `None` without a caveat.
     pub(super) fn note(&self) -> Option<String> {
         let note = self.figure.as_ref()?.note.as_ref()?;
         Some(format!("{}: {note}", self.name))
@@ -43,11 +43,11 @@ impl Input {
 /// Term of a source with the estimate δ in the default model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Enters {
-    /// + δ.
+    /// The model adds δ.
     Absolute,
-    /// × (1 + δ).
+    /// The model multiplies by 1 + δ.
     Relative,
-    /// × cos δ.
+    /// The model multiplies by cos δ.
     Cosine,
 }
 

@@ -13,9 +13,9 @@ use taceva_metrics::distributions::{chi_square, normal};
 
 /// Number of draws in a block.
 const BLOCK: u64 = 10_000;
-/// Least number of blocks before the results may be stable.
+/// Least number of blocks before drawing may stop early.
 const LEAST_BLOCKS: usize = 10;
-/// Offsets of stream numbers. Inputs use their index as the stream number; correlated normal numbers and Student factors add an offset to the index.
+/// Stream numbers: an input's index, plus this offset for correlated normal numbers, or plus `FACTOR` for Student factors.
 const JOINT: u64 = 1 << 32;
 const FACTOR: u64 = 1 << 33;
 
@@ -35,7 +35,7 @@ pub struct MonteCarlo {
     pub draws: u64,
     /// Seed of the random draws.
     pub seed: u64,
-    /// True to stop drawing once two digits of u are stable, JCGM 101, 7.9.
+    /// True to stop drawing once two digits of the standard uncertainty are stable, JCGM 101, 7.9.
     pub is_adaptive: bool,
 }
 
@@ -94,7 +94,7 @@ pub struct MonteCarloResult {
     pub mean: f64,
     /// Standard deviation of the draws.
     pub u: f64,
-    /// Shortest interval with the coverage probability.
+    /// Shortest interval that contains the share of draws given by the coverage probability.
     pub shortest: [f64; 2],
     /// Interval with equal probabilities in both tails.
     pub symmetric: [f64; 2],
@@ -102,7 +102,7 @@ pub struct MonteCarloResult {
     pub end_errors: [f64; 2],
     /// True if the first-order and symmetric intervals agree within the tolerance and twice the standard errors of the ends.
     pub validated: bool,
-    /// Half the last place of u rounded to two digits.
+    /// Half a unit in the last place of `u` rounded to two digits.
     pub tolerance: f64,
     /// True if drawing stopped early because the results were stable.
     pub is_stable: bool,
@@ -112,14 +112,14 @@ pub struct MonteCarloResult {
 pub(super) struct Sampler<'a> {
     pub(super) expression: &'a Expression,
     pub(super) inputs: &'a [Input],
-    /// Values of names that are not inputs.
+    /// Values of the constants, which follow the inputs in the expression.
     pub(super) constants: &'a [f64],
     pub(super) correlations: &'a Correlations,
     pub(super) coverage: f64,
 }
 
 impl Sampler<'_> {
-    /// Runs the model on random draws; `None` if a draw has no value. `estimate` is the value at the estimates.
+    /// Runs the model on random draws; `None` if a draw has no value. `estimate` is the model's value at the estimates of the inputs.
     pub(super) fn run(&self, request: MonteCarlo, estimate: f64) -> Option<MonteCarloResult> {
         // A block holds 100 values beyond its interval, JCGM 101, 7.9.4.
         let tails = (100.0 / (1.0 - self.coverage)).ceil().min(1e7);
@@ -189,7 +189,7 @@ struct Joint<'a> {
     members: Vec<usize>,
     lower: Vec<f64>,
     normals: Vec<Draws>,
-    /// Streams of Student's factor for each member; a single stream for a set.
+    /// Random streams of the Student factors, one for each input with a joint draw. Inputs of one set share a stream.
     factors: Vec<Draws>,
 }
 
@@ -264,7 +264,7 @@ impl Summary {
     }
 }
 
-/// Number of sorted values within an interval, JCGM 101, 7.7.2.
+/// Number of sorted values that a coverage interval spans, JCGM 101, 7.7.2.
 fn width(count: usize, coverage: f64) -> usize {
     whole_size(coverage * count as f64 + 0.5).min(count.saturating_sub(1))
 }
@@ -280,7 +280,7 @@ fn shortest(sorted: &[f64], coverage: f64) -> [f64; 2] {
     })
 }
 
-/// Results of each block: mean, u and both ends.
+/// Results of each block: mean, standard uncertainty, lower and upper interval end.
 #[derive(Default)]
 struct Stability {
     results: Vec<[f64; 4]>,

@@ -38,7 +38,7 @@ const UNEXERCISED: [(&str, &str); 4] = [
     ("drift", "other days"),
 ];
 
-/// Rejects two sources with one figure, and a source that another source includes.
+/// Rejects two sources that use the same figure, and a source whose effect another source includes.
 pub(super) fn check(inputs: &[Input]) -> Result<(), BudgetError> {
     let of = |input: &Input| input.from.clone().unwrap_or_default();
     for (at, input) in inputs.iter().enumerate() {

@@ -15,7 +15,7 @@ pub(super) struct Combined {
     pub(super) greatest_term: Option<[usize; 2]>,
 }
 
-/// Combines the inputs at the expansion of the model. Derivatives after the derivatives of the inputs belong to constants.
+/// Combined uncertainty of the model. The derivatives in `expansion` are those of the inputs, then those of constants.
 ///
 /// u² = Σ cᵢ²uᵢ² + 2 ΣΣ cᵢcⱼuᵢuⱼrᵢⱼ, with the sensitivity cᵢ and standard uncertainty uᵢ of input i, and the correlation rᵢⱼ.
 ///
@@ -69,7 +69,9 @@ pub(super) fn contributions(inputs: &[Input], expansion: &Expansion) -> Vec<f64>
     slopes.map(|(input, slope)| slope * input.u).collect()
 }
 
-/// ½ tr((HΣ)²) of the Hessian H and the covariance Σ, and the indices with the greatest |Hᵢⱼ| uᵢuⱼ.
+/// Second-order variance ½ tr((HΣ)²) for the Hessian H and the covariance Σ.
+///
+/// Also returns the indices i, j with the greatest |Hᵢⱼ| uᵢ uⱼ, for standard uncertainties u.
 fn second_order(
     inputs: &[Input],
     expansion: &Expansion,

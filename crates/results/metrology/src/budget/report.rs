@@ -48,16 +48,16 @@ pub struct Budget {
     pub k: Option<f64>,
     /// Coverage probability.
     pub p: f64,
-    /// First-order expanded uncertainty k u, unrounded, also if draws give the interval; `None` if `nu_eff` is undefined, unless `u` is 0.
+    /// First-order expanded uncertainty k u, unrounded, even if `interval` is from draws. `None` if `k` is undefined and `u` above 0.
     #[serde(rename = "U")]
     pub expanded: Option<f64>,
     /// Coverage interval, computed by `method`; `None` if undefined.
     pub interval: Option<[f64; 2]>,
     /// Method of the coverage interval.
     pub method: Method,
-    /// Sources in the order of the file.
+    /// Sources in the order of the budget file.
     pub sources: Vec<Source>,
-    /// Nonzero correlations.
+    /// Nonzero correlations between sources.
     pub correlations: Vec<Correlation>,
     /// Monte Carlo result; `None` if not requested.
     pub mcm: Option<MonteCarloResult>,
@@ -120,17 +120,17 @@ pub struct Source {
     pub nu: Freedom,
     /// Sensitivity coefficient, in the unit of the measurand divided by the unit of the source.
     pub c: f64,
-    /// Signed contribution c u.
+    /// Sensitivity coefficient `c` times `u`, with its sign, in the unit of the measurand.
     pub contribution: f64,
     /// Share (c u)² / u² of the combined variance; `None` if that variance is 0. Without correlation the shares sum to 1.
     pub share: Option<f64>,
     /// Measured figure that the source uses; `None` for stated numbers.
     pub from: Option<String>,
-    /// Number of rows behind the figure; `None` if unknown.
+    /// Number of rows from which the figure was computed; `None` if unknown.
     pub n: Option<u64>,
-    /// Number of clusters behind the figure; `None` if unknown.
+    /// Number of clusters, such as contact points, among these rows; `None` if unknown.
     pub clusters: Option<u64>,
-    /// Least and greatest label of the figure's rows; `None` if unknown.
+    /// Least and greatest true value of the channel in the figure's rows; `None` if unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub labels: Option<[f64; 2]>,
     /// Digest of the figure's source file; `None` if unknown.
@@ -179,7 +179,7 @@ impl Missing {
     }
 }
 
-/// Certificate of the reference behind a budget.
+/// Certificate of the reference that a budget relies on.
 ///
 /// ```
 /// # use taceva_metrology::budget::Traceability;
@@ -259,7 +259,7 @@ impl Budget {
         Some(format!("interval {low} to {high} {unit}, {}", self.method))
     }
 
-    /// Reservation about the reference: no certificate, or a certificate that had expired on the day of the recording; `None` for neither.
+    /// Caveat about the reference: no certificate, or a certificate that had expired on the day of the recording; `None` for neither.
     pub fn reservation(&self) -> Option<&'static str> {
         let stated = self.traceability.as_ref();
         if stated.is_some_and(Traceability::is_expired) {
@@ -271,13 +271,13 @@ impl Budget {
             .then_some("not traceable")
     }
 
-    /// Distinct label ranges of the samples behind the sources, in words.
+    /// Distinct ranges of true values that the sources were measured on, in words.
     pub fn labels_in_words(&self) -> Vec<String> {
         let ranges = self.label_ranges().into_iter();
         ranges.map(|range| self.range_in_words(range)).collect()
     }
 
-    /// Warnings for a reading outside the label range of the samples behind a source.
+    /// Warnings for a reading outside the true values on which a source was measured.
     pub(super) fn beyond_labels(&self) -> Vec<String> {
         let Some(at) = self.at else {
             return Vec::new();

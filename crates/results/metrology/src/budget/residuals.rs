@@ -47,21 +47,21 @@ pub struct Residuals {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Components {
-    /// Mean square MS_b between points, with `points − 1` degrees of freedom.
+    /// Mean square between points. Its degrees of freedom are the number of points less one.
     pub mean_square_between: f64,
-    /// Mean square MS_w within points, with `n − points` degrees of freedom.
+    /// Mean square within points. Its degrees of freedom are the number of rows less the number of points.
     pub mean_square_within: f64,
-    /// Effective number of rows of a point, (n − Σnₚ²/n)/(G − 1), for G points with nₚ rows each.
+    /// Effective number of rows of a point, (n − Σnₚ²/n)/(G − 1), for n rows in G points with nₚ rows each.
     pub n0: f64,
-    /// Standard deviation s_b between points, √max(0, (MS_b − MS_w)/n0), with degrees of freedom by Satterthwaite.
+    /// Standard deviation between points, √max(0, (mean square between − mean square within)/`n0`), with degrees of freedom by Satterthwaite.
     pub between: Figure,
-    /// Standard deviation within points, √MS_w.
+    /// Standard deviation within points: the square root of the mean square within points.
     pub within: Figure,
-    /// Mean residual, a correction of the prediction. u² = s_b² Σ nₚ²/n² + MS_w/n for nₚ rows of point p.
+    /// Mean residual, a correction of the prediction. Its uncertainty includes the variance between and within points.
     pub bias: Figure,
     /// Root mean square residual, with degrees of freedom by Satterthwaite because rows of a point are correlated.
     pub rmse: Figure,
-    /// True if MS_b is below MS_w, so that `between` is set to 0.
+    /// True if the mean square between points is below the mean square within points, so that `between` is set to 0.
     pub is_negative: bool,
 }
 

@@ -20,39 +20,39 @@ use taceva_metrics::distributions::normal;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Shape {
-    /// Normal, u = `u`. Draws use Student's distribution if the degrees of freedom are finite.
+    /// Normal distribution. Draws use Student's distribution if the degrees of freedom are finite.
     Normal {
         /// Standard uncertainty.
         u: f64,
     },
-    /// Mean of readings, u = s/√n. Draws use Student's distribution.
+    /// Mean of n readings with standard deviation s, u = s/√n. Draws use Student's distribution.
     Student {
         /// Standard uncertainty.
         u: f64,
     },
-    /// Rectangular, u = a/√3. Draws use a curvilinear trapezoid if the degrees of freedom are finite.
+    /// Rectangular of half-width a, u = a/√3. Draws use a curvilinear trapezoid if the degrees of freedom are finite.
     Rectangular {
         /// Half-width a.
         half_width: f64,
     },
-    /// Triangular, u = a/√6.
+    /// Triangular of half-width a, u = a/√6.
     Triangular {
         /// Half-width a.
         half_width: f64,
     },
-    /// Arcsine (U-shaped), u = a/√2.
+    /// Arcsine (U-shaped) of half-width a, u = a/√2.
     Arcsine {
         /// Half-width a.
         half_width: f64,
     },
-    /// Symmetric trapezoid, u = a √((1 + β²)/6).
+    /// Symmetric trapezoid of half-width a and ratio β of top to base width, u = a √((1 + β²)/6).
     Trapezoid {
         /// Half-width a.
         half_width: f64,
         /// Ratio of top width to base width, from 0 to 1.
         beta: f64,
     },
-    /// Curvilinear trapezoid, u = √(a²/3 + d²/9).
+    /// Curvilinear trapezoid: rectangle of half-width a with limits known to ±d, u = √(a²/3 + d²/9).
     CurvilinearTrapezoid {
         /// Half-width a.
         half_width: f64,
@@ -125,7 +125,8 @@ impl Shape {
 /// Draw from the standard normal distribution, or from Student's distribution if the degrees of freedom are finite.
 ///
 /// # Reference
-/// Bailey, Mathematics of Computation 62 (1994): √(ν (U^(−2/ν) − 1)) cos(2πV) has Student's distribution.
+/// Bailey, Mathematics of Computation 62 (1994): √(ν (U^(−2/ν) − 1)) cos(2πV) has Student's
+/// distribution for U and V uniform in 0..1.
 fn bell(freedom: Freedom, draws: Draws, counter: u64) -> f64 {
     let first = open_unit(draws.bits(2 * counter));
     match freedom {

@@ -1,4 +1,4 @@
-//! Converts sources of the file, with their measured figures, to inputs of the model.
+//! Converts sources of the budget file, with their measured figures, to inputs of the model.
 
 mod keys;
 mod measurement;
@@ -54,7 +54,7 @@ impl Numbers {
 }
 
 impl Reader<'_> {
-    /// Inputs of all sources, in the order of the file.
+    /// Inputs of all sources, in the order of the budget file.
     pub(super) fn inputs(&self) -> Result<Vec<Input>, BudgetError> {
         let mut inputs: Vec<Input> = Vec::new();
         for written in &self.text.written.source {
@@ -136,7 +136,7 @@ impl Reader<'_> {
         (found >= 0.0).then_some(found).ok_or_else(problem)
     }
 
-    /// Number, which must be within `range`.
+    /// Reads a number, and rejects a number outside `range`.
     fn number(&self, of: &Spanned<f64>, key: &str, range: &Range) -> Result<f64, BudgetError> {
         let found = *of.get_ref();
         let problem = || self.text.error(of, key, value(found, range.words));
@@ -184,7 +184,7 @@ fn owned<T: Clone>(of: Option<&Spanned<T>>) -> Option<T> {
     of.map(|of| of.get_ref().clone())
 }
 
-/// Deviation of each row from the mean of all rows, rounded twice.
+/// Deviation of each row from the mean of all rows, computed from exact sums.
 pub(super) fn deviations(rows: &[f64]) -> Vec<f64> {
     let n = rows.len() as f64;
     let sum: ExactSum = rows.iter().copied().collect();

@@ -157,12 +157,12 @@ impl BudgetText {
         BudgetText { at, ..self }
     }
 
-    /// True if the file has a source.
+    /// True if the budget file has a source.
     pub fn has_source(&self) -> bool {
         !self.written.source.is_empty()
     }
 
-    /// Measured figures that sources use by `from`, in the order of the file.
+    /// Measured figures that sources use by `from`, in the order of the budget file.
     pub fn figures(&self) -> impl Iterator<Item = &str> {
         let named = self.written.source.iter();
         let named = named.filter_map(|source| source.get_ref().from.as_ref());
@@ -183,7 +183,7 @@ impl BudgetText {
         BudgetError::new(from.map(|from| self.line(from)), "from", problem)
     }
 
-    /// Quantity of the measurand and of absolute sources.
+    /// Expected unit of the measurand and of sources that are added to it.
     pub(super) fn wanted(&self) -> Wanted {
         match (self.kept_unit, &self.written.expression) {
             (Some(unit), None) => Wanted::In(unit),

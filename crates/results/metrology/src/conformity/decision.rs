@@ -53,7 +53,7 @@ impl fmt::Display for Word {
     }
 }
 
-/// Decision about one measured value, with the numbers behind the decision.
+/// Decision about one measured value, with the numbers that led to the decision.
 ///
 /// ```
 /// use taceva_metrology::conformity::{DecisionRule, Limits, Measurement, decide};

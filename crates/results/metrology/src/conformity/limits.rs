@@ -20,7 +20,7 @@ pub struct Limits {
     most: Option<f64>,
 }
 
-/// Parsed limits before their check.
+/// Deserialized limits, not yet validated.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Ends {
@@ -94,7 +94,7 @@ impl Limits {
         self.least.is_none_or(|least| value >= least) && self.most.is_none_or(|most| value <= most)
     }
 
-    /// Limits after applying `change` to each; `None` for an empty range.
+    /// Limits after `change_least` and `change_most`; `None` for an empty range.
     pub(super) fn map(
         &self,
         change_least: impl Fn(f64) -> f64,

@@ -210,7 +210,7 @@ impl Measurement {
         }
     }
 
-    /// Quantity that a guard band divides or multiplies, in words. `None` if the guard band is subtracted or added in the unit of the value.
+    /// Words for a quantity that a guard band scales by a factor, such as the limit. `None` if the band shifts the limit by a difference.
     ///
     /// ```
     /// use taceva_metrics::Scale;
@@ -224,7 +224,7 @@ impl Measurement {
         self.scale.quantity()
     }
 
-    /// Ratio of the guarded quantity at `inner` to the guarded quantity at `limit`.
+    /// Factor of a guard band on a logarithmic scale: scaled quantity at `inner` divided by the same quantity at `limit`.
     #[must_use]
     pub fn guard_quotient(&self, limit: f64, inner: f64) -> f64 {
         self.scale.quantity_of(inner) / self.scale.quantity_of(limit)

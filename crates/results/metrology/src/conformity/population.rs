@@ -3,10 +3,10 @@
 use super::error::check;
 use super::{ConformityError, GlobalRisk, Limits, Measurement, Process};
 
-/// Least number of units that characterise a process.
+/// Least number of units from which a process is estimated.
 const LEAST_UNITS: usize = 5;
 
-/// Distribution of the units of one process: normal on the scale of a measurement. Further units are measured on that scale.
+/// Distribution of the units of one process: normal on the linear or logarithmic scale of their measurements.
 ///
 /// ```
 /// use taceva_metrology::conformity::{Limits, Measurement, Population};

@@ -133,7 +133,7 @@ impl Process {
         below + above
     }
 
-    /// Both limits. The end of the process distribution replaces a missing limit.
+    /// Lower and upper limit. A missing limit is [`FAR`] standard deviations from the mean, or at the other limit if that is farther.
     fn ends(&self, limits: &Limits) -> [f64; 2] {
         let far = FAR * self.deviation;
         let (low, high) = (self.mean - far, self.mean + far);
@@ -170,7 +170,7 @@ impl Process {
         below + above
     }
 
-    /// Share of units between `ends`, weighted by `share`. Panels of the integral are narrow where `share` changes.
+    /// Integral of the unit density times `share`, from `from` to `to`. Panels of the integral are narrow where `share` changes.
     fn integral(
         &self,
         [from, to]: [f64; 2],

@@ -13,7 +13,7 @@ use taceva_metrics::distributions::{f_ratio, student_t};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CovarianceOf {
-    /// Residuals of independent rows, s²(XᵀX)⁻¹.
+    /// Residuals of independent rows: residual variance times (XᵀX)⁻¹, with the design matrix X.
     Rows,
     /// Jackknife over contact points, with one point left out at a time.
     Points {
@@ -31,7 +31,7 @@ impl std::fmt::Display for CovarianceOf {
     }
 }
 
-/// Value of a curve with the ends of a band, in the unit of y. If both covariances are defined, the wider band is used.
+/// Value of a curve with the ends of a band, in the unit of y. Of the bands from rows and from contact points, the wider is used.
 ///
 /// ```
 /// use taceva_metrology::curve::{CovarianceOf, CurveFit, CurveRow};
@@ -50,15 +50,15 @@ pub struct Band {
     pub low: f64,
     /// Upper end of the band.
     pub high: f64,
-    /// Standard uncertainty. The half-width is a multiple of this uncertainty.
+    /// Standard uncertainty of the value. The half-width of the band is a multiple of this uncertainty.
     pub u: f64,
-    /// Degrees of freedom.
+    /// Degrees of freedom of `u`.
     pub freedom: f64,
     /// Source of the covariance.
     pub covariance: CovarianceOf,
 }
 
-/// Standard uncertainty of a coefficient. If both covariances are defined, the greater uncertainty is used.
+/// Standard uncertainty of a coefficient: the greater of those from independent rows and from contact points.
 ///
 /// ```
 /// use taceva_metrology::curve::{CovarianceOf, CurveFit, CurveRow};
@@ -74,13 +74,13 @@ pub struct Band {
 pub struct CoefficientUncertainty {
     /// Standard uncertainty, in the unit of the coefficient.
     pub u: f64,
-    /// Degrees of freedom.
+    /// Degrees of freedom of `u`.
     pub freedom: f64,
     /// Source of the covariance.
     pub covariance: CovarianceOf,
 }
 
-/// Covariance of the coefficients of z, the centred and scaled x, with degrees of freedom.
+/// Covariance of the coefficients of the centred and scaled polynomial, with degrees of freedom.
 pub(super) struct Spread {
     pub(super) covariance: Square,
     pub(super) freedom: f64,
@@ -88,7 +88,7 @@ pub(super) struct Spread {
 }
 
 impl CurveFit {
-    /// Covariance of independent rows.
+    /// Covariance of the coefficients for independent rows.
     pub(super) fn of_rows(&self) -> Spread {
         let square = self.residual_deviation().powi(2);
         let inverse = self.solution.inverse;
@@ -99,7 +99,7 @@ impl CurveFit {
         }
     }
 
-    /// Covariance between contact points; `None` if undefined.
+    /// Covariance of the coefficients between contact points; `None` if undefined.
     pub(super) fn of_points(&self) -> Option<Spread> {
         let Clustered {
             covariance,
@@ -149,7 +149,7 @@ impl CurveFit {
         }
     }
 
-    /// Confidence band of the curve at one x: y ± t u(y).
+    /// Confidence band of the curve at one x: y ± t u(y), with Student's t.
     ///
     /// # Errors
     /// [`CurveUndefined::Probability`] for `p` outside 0..1.
@@ -160,7 +160,8 @@ impl CurveFit {
         }))
     }
 
-    /// Prediction band for the mean of m = `readings` new readings at one x: y ± t √(s²/m + u²(y)), with the residual standard deviation s.
+    /// Prediction band for the mean of m = `readings` new readings at one x: y ± t √(s²/m + u²(y)). t is Student's t,
+    /// and s the residual standard deviation.
     ///
     /// # Errors
     /// [`CurveUndefined::Probability`] for `p` outside 0..1; [`CurveUndefined::NotPositive`] for no readings.

@@ -4,7 +4,7 @@ use super::fit::CurveFit;
 use super::undefined::{CurveUndefined, positive, probability};
 use taceva_metrics::distributions::{noncentral_t, student_t};
 
-/// Error risks and number of averaged readings.
+/// Risks of a false and of a missed detection, and the number of averaged readings.
 ///
 /// This type gets no further field.
 ///
@@ -58,7 +58,7 @@ pub struct Detection {
 impl CurveFit {
     /// Computes x_C = t s/b √(1/K + 1/n + x̄²/S_xx), and x_D with δ in place of t.
     ///
-    /// s is the residual standard deviation, b the slope, n the number of rows, and S_xx = Σ (x − x̄)².
+    /// t is Student's t, s the residual standard deviation, b the slope, n the number of rows, and S_xx = Σ (x − x̄)².
     ///
     /// # Errors
     /// [`CurveUndefined::NotALine`], [`CurveUndefined::Probability`], [`CurveUndefined::NotPositive`] for no readings,

@@ -120,7 +120,7 @@ impl CurveFit {
         self.count - 1
     }
 
-    /// Degrees of freedom of the residuals, n − order − 1.
+    /// Degrees of freedom of the residuals: number of rows − order − 1.
     pub fn freedom(&self) -> f64 {
         (self.rows.len() - self.count) as f64
     }
@@ -155,7 +155,7 @@ impl CurveFit {
         all.iter().take(self.count).map(coefficient).collect()
     }
 
-    /// Covariance s²(XᵀX)⁻¹ of the coefficients of x, row by row.
+    /// Covariance of the coefficients, row by row: residual variance times (XᵀX)⁻¹, with powers of x as columns of X.
     pub fn covariance(&self) -> Vec<Vec<f64>> {
         let all = self.powers_of_x();
         let square = self.residual_deviation().powi(2);
@@ -164,7 +164,7 @@ impl CurveFit {
         (0..self.count).map(row).collect()
     }
 
-    /// Row i: weights of the coefficients of z, the centred and scaled x, in the coefficient of xⁱ, by the binomial theorem.
+    /// Converts coefficients of the scaled polynomial to coefficients of x⁰ to x³, by the binomial theorem. Row i gives that of xⁱ.
     pub(super) fn powers_of_x(&self) -> Square {
         const CHOOSE: Square = [
             [1.0, 1.0, 1.0, 1.0],

@@ -4,7 +4,7 @@ use super::limits::{Figure, Standing, Table};
 use super::undefined::{CurveUndefined, all_positive, positive, range};
 use taceva_core::whole_size;
 
-/// Upper limits of the [`IndicationFigures`] q, b, v, f_0 and a in %, from a laboratory's workbook and not compared with the text of the standard.
+/// Upper limits in % of the figures in [`IndicationFigures`]. A laboratory's workbook states them. They were not compared with the standard.
 const LIMITS: Table = Table {
     standard: "ISO 7500-1",
     figures: &["q", "b", "v", "f_0", "a"],
@@ -89,13 +89,15 @@ pub struct IndicationLevel {
 pub struct IndicationFigures {
     /// Relative error q of each repeat.
     pub q: Vec<f64>,
-    /// Mean of q.
+    /// Mean of `q` over all repeats, %.
     pub q_mean: f64,
-    /// Standard uncertainty of `q_mean`, s/√n; `None` for one repeat.
+    /// Standard uncertainty of `q_mean`: standard deviation of `q` divided by √n for n repeats; `None` for one repeat.
     pub q_mean_u: Option<f64>,
-    /// Range b = max q − min q; `None` for fewer than three repeats.
+    /// Range of the relative error: greatest `q` minus least `q`, %; `None` for fewer than three repeats.
     pub b: Option<f64>,
-    /// Reversibility v = (F_up − F_down)/F̄ of the true forces at one indicated force, %; `None` without an unloading reading.
+    /// Reversibility, %: true force of the last repeat minus that during unloading, relative to the mean of the repeats.
+    ///
+    /// The true forces are scaled to one indicated force. `None` without an unloading reading.
     pub v: Option<f64>,
     /// Zero error f_0, the greatest |reading at zero force| divided by the full scale, %; `None` without readings at zero force.
     pub f_0: Option<f64>,
@@ -150,7 +152,7 @@ impl IndicationLevel {
 }
 
 impl IndicationFigures {
-    /// Standing among limits similar to those of ISO 7500-1, with the mean of q.
+    /// Standing of `q_mean` and the other figures among limits similar to those of ISO 7500-1.
     pub fn standing(&self) -> Standing {
         let figures: [Figure; 5] = [
             Ok(self.q_mean.abs()),
@@ -176,21 +178,21 @@ impl IndicationFigures {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct IndicationSummary {
-    /// Number of presses with a defined q.
+    /// Number of presses with a defined relative error.
     pub n: usize,
-    /// Median of |q|, in %.
+    /// Median magnitude of the relative error over the presses, %.
     pub median_abs: f64,
-    /// 95th percentile of |q| in %, interpolated between neighbours.
+    /// 95th percentile over the presses of the relative error's magnitude, %, interpolated between neighbours.
     pub p95_abs: f64,
-    /// Share of presses with |q| of at most 3 %, the limit in the last row of the limits for [`IndicationFigures`].
+    /// Share of presses with a relative error of at most 3 % in magnitude, the loosest limit of [`IndicationFigures::q`].
     pub share_within_3: f64,
 }
 
 impl IndicationSummary {
-    /// Summarises presses with a defined q and skips other presses.
+    /// Summarises presses with a defined relative error, and skips other presses.
     ///
     /// # Errors
-    /// [`CurveUndefined::TooFewRows`] without a press with a defined q.
+    /// [`CurveUndefined::TooFewRows`] if no press has a defined relative error.
     pub fn of(presses: &[Indication]) -> Result<IndicationSummary, CurveUndefined> {
         let mut sizes: Vec<f64> = presses
             .iter()

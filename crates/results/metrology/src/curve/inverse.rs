@@ -23,9 +23,9 @@ pub struct InversePrediction {
     pub low: f64,
     /// Upper end of the interval.
     pub high: f64,
-    /// Half-width t u(x) without Fieller's correction, as in DIN 32645.
+    /// Half-width without Fieller's correction, as in DIN 32645: Student's t times the standard uncertainty of `x`.
     pub half_width: f64,
-    /// Fieller's g, (t u(b)/b)² for the slope b; 0 for an exact slope.
+    /// Fieller's g = (t u(b)/b)² for Student's t and the slope b with standard uncertainty u(b); 0 for an exact slope.
     pub g: f64,
     /// Source of the covariance with the wider interval.
     pub covariance: CovarianceOf,
@@ -35,7 +35,7 @@ impl CurveFit {
     /// Reference value at which the curve equals `y`, the mean of `readings` readings, with an interval of coverage `p`.
     ///
     /// # Errors
-    /// [`CurveUndefined::SlopeNotShown`] if g is 1 or more, [`CurveUndefined::NotALine`] for an order other than 1.
+    /// [`CurveUndefined::SlopeNotShown`] if Fieller's g is 1 or more, [`CurveUndefined::NotALine`] for an order other than 1.
     ///
     /// # Reference
     /// Fieller, Journal of the Royal Statistical Society B 16 (1954); DIN 32645:2008 for the plain half-width.

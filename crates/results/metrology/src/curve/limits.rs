@@ -1,16 +1,16 @@
-//! Limits of relative errors, similar to those of a standard, and the strictest row that measured figures meet.
+//! Limits of relative errors, similar to those of a standard, and the strictest row of limits that all figures meet.
 
 use std::fmt;
 
-/// Multiples of the class 1 limits, which no standard defines.
+/// Multiples of the class 1 limits. The standards define no class for these multiples.
 const MULTIPLES: [u32; 6] = [5, 10, 20, 50, 100, 200];
 
 /// A table of limits in %.
 pub(super) struct Table {
     pub(super) standard: &'static str,
-    /// Names of the figures.
+    /// Names of the figures that the table limits.
     pub(super) figures: &'static [&'static str],
-    /// Name of each row and the limits of its figures, strictest row first.
+    /// Name of each row, and the limits of the figures in this row. The strictest row is first.
     pub(super) rows: &'static [(&'static str, &'static [f64])],
 }
 
@@ -30,14 +30,14 @@ pub(super) type Figure = Result<f64, &'static str>;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Standing {
-    /// All figures meet the limits of this row.
+    /// All figures meet the limits of this row of the table.
     Within {
         /// Name of the row.
         row: &'static str,
         /// Standard that the limits resemble.
         standard: &'static str,
     },
-    /// A figure exceeds the limit of the last row.
+    /// A figure exceeds the limit of the last row, which has the widest limits.
     Beyond {
         /// Figure that exceeds its limit most.
         figure: &'static str,
@@ -107,7 +107,7 @@ impl fmt::Display for Standing {
 }
 
 impl Table {
-    /// Standing of `figures`, in the order of the table. `may_have` excludes rows by conditions besides the limits.
+    /// Standing of `figures`, in the order of the table. `may_have` returns false for rows that other conditions exclude.
     pub(super) fn standing(&self, figures: &[Figure], may_have: impl Fn(&str) -> bool) -> Standing {
         let places = || figures.iter().enumerate();
         let known = || places().filter_map(|(at, figure)| Some((at, figure.ok()?)));

@@ -4,7 +4,7 @@ use super::fit::{CurveFit, CurveRow};
 use super::limits::{Figure, Standing, Table};
 use super::undefined::{CurveUndefined, all_positive, range};
 
-/// Upper limits of the [`ProvingFigures`] b, b', f_c, f_0, v and c in %, not compared with the text of the standard.
+/// Upper limits in % of the figures of [`ProvingLevel`] and [`ProvingFigures`]. They were not compared with the standard.
 const LIMITS: Table = Table {
     standard: "ISO 376",
     figures: &["b", "b'", "f_c", "f_0", "v", "c"],
@@ -16,7 +16,7 @@ const LIMITS: Table = Table {
     ],
 };
 
-/// Least force of each row, in multiples of the resolution.
+/// Least force for each row of limits, in multiples of the resolution.
 const LEAST_FORCES: [(&str, f64); 4] =
     [("00", 4000.0), ("0.5", 2000.0), ("1", 1000.0), ("2", 500.0)];
 
@@ -39,11 +39,11 @@ pub struct ProvingSeries {
     pub x2: Vec<f64>,
     /// Series in the second mounting.
     pub x3: Vec<f64>,
-    /// Unloading after `x3`.
+    /// Readings during unloading after `x3`.
     pub x4: Vec<f64>,
     /// Series in the third mounting.
     pub x5: Vec<f64>,
-    /// Unloading after `x5`.
+    /// Readings during unloading after `x5`.
     pub x6: Vec<f64>,
     /// Readings at zero force, before and after the series; `None` if not recorded.
     pub zeros: Option<[f64; 2]>,
@@ -51,7 +51,7 @@ pub struct ProvingSeries {
     pub creep: Option<[f64; 2]>,
     /// Resolution, in the unit of the force; `None` if unknown.
     pub resolution: Option<f64>,
-    /// Full-scale reading X_N, in the unit of the readings. Defaults to X̄_r at the greatest force.
+    /// Full-scale reading X_N, in the unit of the readings. Defaults to the mean reading at the greatest force.
     pub full_scale: Option<f64>,
 }
 
@@ -72,15 +72,15 @@ pub struct ProvingLevel {
     pub force: f64,
     /// X̄_r: mean of X1, X3 and X5, in the unit of the readings.
     pub mean: f64,
-    /// b: range of X1, X3 and X5, divided by X̄_r.
+    /// b: range of X1, X3 and X5, divided by their mean.
     pub b: f64,
     /// b': |X2 − X1| divided by their mean; `None` without X2.
     pub b_prime: Option<f64>,
-    /// f_c: (X̄_r − X_a)/X_a, with the fitted cubic X_a.
+    /// f_c: mean of X1, X3 and X5 minus the cubic X_a fitted over all forces, divided by X_a.
     pub f_c: f64,
     /// v: mean of |X4' − X3|/X3 and |X6' − X5|/X5; `None` without unloading.
     pub v: Option<f64>,
-    /// Relative uncertainty of rotation as a ratio: √(Σ(X_i − X̄_r)²/6)/X̄_r over X1, X3 and X5.
+    /// Standard uncertainty from rotation, as a ratio: √(Σ(X_i − mean)²/6) divided by the mean, over X1, X3 and X5.
     pub w_rotation: f64,
 }
 
@@ -218,7 +218,7 @@ impl ProvingFigures {
 
     /// Relative standard uncertainty of a level, as a ratio: root of the sum of the squares of eight terms. Missing figures count as 0.
     ///
-    /// The terms are the reference (`machine`, half of its U), rotation, b'/√3, resolution/(F√6), c/√3, f_0, `temperature` and f_c.
+    /// The terms are `machine` (half of the reference's U), `w_rotation`, b'/√3, resolution/(force × √6), c/√3, f_0, `temperature` and f_c.
     ///
     /// # Panics
     /// If there is no level with this index.

@@ -26,14 +26,14 @@ impl Axis {
         (scale > 0.0).then_some(Axis { centre, scale })
     }
 
-    /// Powers of z at x.
+    /// Powers 0 to 3 of (x − centre)/scale.
     pub(super) fn powers(&self, x: f64) -> Coefficients {
         let z = (x - self.centre) / self.scale;
         [1.0, z, z * z, z * z * z]
     }
 }
 
-/// Solution: coefficients, sum of squared residuals, and (ZᵀZ)⁻¹ for the matrix Z of rows.
+/// Coefficients, sum of squared residuals, and (ZᵀZ)⁻¹ for the matrix Z whose rows are powers of the scaled x.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Solution {
     pub(super) coefficients: Coefficients,

@@ -17,7 +17,7 @@ pub enum CurveUndefined {
     TooFewRows {
         /// Number of rows.
         have: usize,
-        /// Least number.
+        /// Least number of rows.
         least: usize,
     },
     /// All x are equal.
@@ -40,10 +40,10 @@ pub enum CurveUndefined {
     /// A probability outside 0..1.
     #[error("probability {0} is found, expected a number between 0 and 1")]
     Probability(f64),
-    /// The slope does not differ significantly from 0: Fieller's g is 1 or more, and the inverse is unbounded.
+    /// The slope does not differ significantly from 0, so the interval of the inverse is unbounded.
     #[error("the slope is not shown to differ from 0: Fieller's g is {g:.3}, expected below 1")]
     SlopeNotShown {
-        /// Fieller's g, (t u(b)/b)² for the slope b.
+        /// Fieller's g = (t u(b)/b)², at least 1, for Student's t and the slope b with standard uncertainty u(b).
         g: f64,
     },
     /// The figure is defined only for a line; the value is the order of the curve.

@@ -12,7 +12,7 @@ use super::report::{
 };
 use super::{Design, GaugeSettings, Method, RangeConstants};
 
-/// Least number of operators without a remark on degrees of freedom.
+/// Reports on fewer operators than this warn of few degrees of freedom.
 const FEW_OPERATORS: usize = 5;
 /// Number of standard deviations that AIAG compares with the tolerance.
 const SPAN: f64 = 6.0;

@@ -71,7 +71,7 @@ impl Drawn {
     }
 }
 
-/// Intervals of all figures of a report.
+/// Confidence intervals of all variance components and ratios of a report.
 pub(super) struct Intervals {
     /// Interval of the variance of each component.
     pub(super) variances: Vec<(ComponentName, Ends)>,

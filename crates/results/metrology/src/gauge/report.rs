@@ -20,19 +20,19 @@ pub const SCHEMA: &str = "taceva.gauge/1";
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum ComponentName {
-    /// Between trials; AIAG's equipment variation.
+    /// Variance between trials; AIAG's equipment variation.
     Repeatability,
-    /// Between operators.
+    /// Variance between operators.
     Operator,
     /// Interaction between operators and parts.
     Interaction,
-    /// Operators and interaction; AIAG's appraiser variation.
+    /// Sum of the operator and interaction variances; AIAG's appraiser variation.
     Reproducibility,
-    /// Repeatability and reproducibility.
+    /// Sum of the repeatability and reproducibility variances.
     Gauge,
-    /// Between parts.
+    /// Variance between parts.
     Part,
-    /// Gauge and parts.
+    /// Sum of the gauge and part variances.
     Total,
 }
 
@@ -94,7 +94,7 @@ pub struct Component {
     pub interval: IntervalMethod,
     /// Share of the total variance, in per cent; `None` without variation.
     pub percent_contribution: Option<f64>,
-    /// Ratio to the total standard deviation, in per cent; `None` without variation.
+    /// Ratio of `sd` to the total standard deviation, in per cent; `None` without variation.
     pub percent_study: Option<f64>,
     /// 95 % confidence interval of `percent_study`, by generalized pivotal quantities; `None` without variation.
     pub percent_study_ci95: Option<[f64; 2]>,
@@ -165,11 +165,11 @@ pub struct Ndc {
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Band {
-    /// Below 10 %.
+    /// Ratio below 10 %.
     Acceptable,
-    /// From 10 to 30 %.
+    /// Ratio from 10 to 30 %.
     Conditional,
-    /// Above 30 %.
+    /// Ratio above 30 %.
     Unacceptable,
 }
 
@@ -301,7 +301,7 @@ pub struct GaugeReport {
     pub tolerance: Option<f64>,
     /// Number of distinct categories.
     pub ndc: Ndc,
-    /// AIAG class of the gauge; `None` for errors as readings, or without variation.
+    /// AIAG class of the gauge. `None` if the readings are errors, or do not vary.
     pub band: Option<Band>,
     /// AIAG classes of both ends of the gauge's confidence interval; `None` if `band` is `None`.
     pub band_ci95: Option<[Band; 2]>,

@@ -12,13 +12,13 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Source {
-    /// Between operators.
+    /// Variation between operators.
     Operator,
-    /// Between parts; within operators in a nested study.
+    /// Variation between parts; within operators in a nested study.
     Part,
     /// Interaction of operators and parts.
     Interaction,
-    /// Within cells: between trials.
+    /// Variation within cells, between trials.
     Repeatability,
     /// Pooled interaction and repeatability.
     Pooled,
@@ -50,7 +50,7 @@ pub struct TableRow {
     pub ss: f64,
     /// Mean square; `None` for the total.
     pub ms: Option<f64>,
-    /// F ratio to the mean square of the next lower source; `None` without a lower source.
+    /// Mean square divided by the mean square in the denominator of the F test; `None` without an F test.
     pub f: Option<f64>,
     /// p value of the F ratio; `None` without a ratio.
     pub p: Option<f64>,

@@ -1,4 +1,4 @@
-//! Agreement of two peak flow meters, of Bland and Altman.
+//! Agreement of two peak flow meters, from data of Bland and Altman.
 
 use serde_json::Value;
 use taceva_metrology::agreement::{Agreement, Pair};

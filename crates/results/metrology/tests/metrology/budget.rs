@@ -10,7 +10,7 @@ mod residuals;
 
 use taceva_metrology::budget::{Budget, BudgetText, Evidence, MonteCarlo};
 
-/// Budgets of a file text without measured figures.
+/// Budgets of the budget file `text`, without measured figures.
 fn budgets(text: &str) -> Vec<Budget> {
     BudgetText::parse(text)
         .expect("a budget")
@@ -18,7 +18,7 @@ fn budgets(text: &str) -> Vec<Budget> {
         .expect("values")
 }
 
-/// First budget of a file text, with Monte Carlo draws.
+/// First budget of the budget file `text`, with Monte Carlo draws.
 fn drawn(text: &str, draws: MonteCarlo) -> Budget {
     let text = BudgetText::parse(text).expect("a budget");
     text.budgets(&Evidence::default(), draws)
@@ -26,7 +26,7 @@ fn drawn(text: &str, draws: MonteCarlo) -> Budget {
         .remove(0)
 }
 
-/// Error message for a file text.
+/// Error message for the budget file `text`.
 fn refusal(text: &str, evidence: &Evidence) -> String {
     let found = BudgetText::parse(text).and_then(|text| text.budgets(evidence, None));
     found.expect_err("refused").to_string()

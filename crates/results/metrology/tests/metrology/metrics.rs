@@ -1,4 +1,4 @@
-//! Metrics of predictions equal the functions over slices, bit for bit.
+//! Scores of agreement and of tolerance intervals equal the results of the public functions, bit for bit.
 
 use taceva_core::{Channel, Channels, FieldSet};
 use taceva_metrics::{Evaluation, Evaluator, MetricPlan, Rows, catalogue};
@@ -16,7 +16,7 @@ fn presses(presses: u32) -> Vec<(u32, Pair)> {
     (0..presses).map(press).collect()
 }
 
-/// Scores of these presses, from merged parts of `at_once` presses.
+/// Scores of `presses`, merged from evaluators of `at_once` presses each.
 fn evaluated(presses: &[(u32, Pair)], at_once: usize) -> Evaluation {
     let channels = Channels::new([Channel::FZ]).expect("one channel");
     let wanted = catalogue::select(["agreement", "tolerance_interval"]).expect("known names");
@@ -36,14 +36,14 @@ fn evaluated(presses: &[(u32, Pair)], at_once: usize) -> Evaluation {
     whole.finish().expect("scores")
 }
 
-/// Bits of a variant of a metric.
+/// Bit pattern of a variant's value, such as `lower` of `agreement`.
 fn variant(evaluation: &Evaluation, metric: &str, name: &str) -> u64 {
     let score = evaluation.score(metric, "Fz").expect("a score");
     let variant = score.variant(name).expect("a variant");
     variant.value.scalar().expect("a number").to_bits()
 }
 
-/// Bits of both ends of the interval of a variant of the agreement.
+/// Bit patterns of both interval ends of the variant `name` of `agreement`.
 fn interval(evaluation: &Evaluation, name: &str) -> [u64; 2] {
     let score = evaluation.score("agreement", "Fz").expect("a score");
     let interval = score.variant(name).and_then(|variant| variant.interval);

@@ -1,11 +1,11 @@
-//! Quantiles, compared with 18 to 25 digits.
+//! Quantiles, compared with golden values of 18 to 25 digits.
 
 use serde_json::Value;
 use taceva_metrics::distributions::{chi_square, f_ratio, noncentral_t, normal, student_t};
 
 use crate::support::{close, golden};
 
-/// Numbers of a row before its golden text, and the golden number.
+/// Arguments of a quantile, and its golden value.
 fn row(row: &Value) -> (Vec<f64>, f64) {
     let cells = row.as_array().expect("a row");
     let arguments = cells.iter().map_while(Value::as_f64).collect();

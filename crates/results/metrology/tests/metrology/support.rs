@@ -19,7 +19,7 @@ pub(crate) fn case(name: &str) -> Value {
     cases.iter().find(is_it).expect("a case").clone()
 }
 
-/// The number at `pointer`.
+/// The number at the JSON pointer `pointer`.
 pub(crate) fn number(of: &Value, pointer: &str) -> f64 {
     of.pointer(pointer)
         .and_then(Value::as_f64)

@@ -17,12 +17,12 @@ pub(crate) struct Margin {
 }
 
 impl Margin {
-    /// hits / samples of the class.
+    /// Recall: hits divided by the samples of the class.
     fn recall(self) -> Quotient {
         quotient(self.hits, self.truth)
     }
 
-    /// 2 hits / (samples of the class + samples predicted as the class), which is 2 tp / (2 tp + fp + fn).
+    /// F1: 2 hits / (samples of the class + samples predicted as the class), which is 2 tp / (2 tp + fp + fn).
     fn f1(self) -> Quotient {
         quotient(2 * self.hits, self.truth + self.predicted)
     }
@@ -39,14 +39,14 @@ fn quotient(above: u64, below: u64) -> Quotient {
     }
 }
 
-/// Counts of the class at a position.
+/// Counts of the class with this position among the names.
 #[derive(Clone, Debug)]
 struct ClassMargin {
     position: usize,
     margin: Margin,
 }
 
-/// Margins of a cluster: counts of only the classes that occur in the cluster, to save memory.
+/// Counts of each class that occurs in a cluster. Other classes are omitted to save memory.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PartMargins {
     /// Number of samples.
@@ -71,7 +71,7 @@ impl PartMargins {
         self.find(position).is_ok()
     }
 
-    /// Index of the class at `position`, or the index at which it is missing.
+    /// Index of the class at `position`; an `Err` contains the index at which to insert the class.
     fn find(&self, position: usize) -> Result<usize, usize> {
         self.of.binary_search_by_key(&position, |of| of.position)
     }
@@ -87,7 +87,7 @@ impl PartMargins {
     }
 }
 
-/// Classes that a mean of F1 counts.
+/// Classes that a mean of F1 includes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Counted {
     /// Classes in the truth or among the predictions.
@@ -98,7 +98,7 @@ pub(crate) enum Counted {
     AllNames,
 }
 
-/// Margins of a confusion: counts of each class.
+/// Counts of each class, from a confusion matrix.
 #[derive(Clone, Debug)]
 pub(crate) struct Margins {
     /// Number of samples.
@@ -110,7 +110,7 @@ pub(crate) struct Margins {
 type Score = Result<f64, Undefined>;
 
 impl Margins {
-    /// Margins without samples, for `classes` classes.
+    /// Counts of 0 for each of `classes` classes.
     pub(crate) fn empty(classes: usize) -> Margins {
         Margins {
             n: 0,
@@ -129,7 +129,7 @@ impl Margins {
         }
     }
 
-    /// Subtracts the samples of `part`, which these margins must include.
+    /// Subtracts the samples of `part`. These margins must include `part`.
     pub(crate) fn subtract(&mut self, part: &PartMargins) {
         self.n -= part.n;
         for ClassMargin { position, margin } in &part.of {
@@ -259,7 +259,7 @@ impl Margins {
         Ok(if above.is_negative() { -root } else { root })
     }
 
-    /// Sum over the classes of the product of two counts.
+    /// Sum over the classes of the product of the two counts that `of` returns.
     fn products(&self, of: impl Fn(&Margin) -> [u64; 2]) -> Dyadic {
         let products = self.of.iter().map(of);
         exact(
@@ -276,7 +276,7 @@ impl Margins {
         }
     }
 
-    /// Quotient of `above` and `below`. Undefined as empty without samples, otherwise with `reason` if `below` is 0.
+    /// Quotient of `above` and `below`. Error: `Undefined::Empty` without samples, else `reason` if `below` is 0.
     fn over(&self, above: u64, below: u64, reason: Undefined) -> Score {
         match (self.n, below) {
             (0, _) => Err(Undefined::Empty),

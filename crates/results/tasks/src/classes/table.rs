@@ -11,14 +11,14 @@ use crate::undefined::Undefined;
 
 type Score = Result<f64, Undefined>;
 
-/// Margins of all clusters together, and of each cluster.
+/// Counts of each class, in all clusters together and in each cluster.
 struct Confusion<'a> {
     rule: &'a str,
     all: Margins,
     parts: &'a [PartMargins],
 }
 
-/// All scores, computed from the margins `parts` of the clusters.
+/// All scores, computed from the class counts `parts` of the clusters.
 pub(super) fn scores(names: &Names, rule: &str, parts: &[PartMargins]) -> Vec<TaskScore> {
     let mut all = Margins::empty(names.len());
     for part in parts {
@@ -159,7 +159,7 @@ impl Confusion<'_> {
         self.score("recall", &definition, found)
     }
 
-    /// Score with the rule in its definition.
+    /// Score whose definition names the rule applied to the predictions.
     fn score(&self, metric: &'static str, definition: &str, found: Estimate) -> TaskScore {
         let definition = match self.rule {
             "" => definition.to_owned(),
@@ -200,7 +200,7 @@ impl Confusion<'_> {
         estimate(found, range(found), &parts, of_constant)
     }
 
-    /// Scores with one cluster left out, for each cluster. `value` receives the margins of this cluster and of all other clusters.
+    /// Scores with one cluster left out, for each cluster. `value` receives the class counts of this cluster and of all others.
     fn left_out(&self, value: impl Fn(&PartMargins, &Margins) -> Score) -> Vec<Part> {
         let mut left = self.all.clone();
         let parts = self.parts.iter().map(|part| {

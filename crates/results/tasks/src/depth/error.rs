@@ -60,7 +60,7 @@ pub enum DepthError {
         /// Name of the map with the expected size.
         of: &'static str,
     },
-    /// A contact gate that is not a valid depth, mm.
+    /// A contact threshold that is not a valid depth, mm.
     #[error("the gate is {0} mm, expected a number from 0 to 1e9 mm")]
     Gate(f64),
     /// A pixel size that is not above 0, or too great, mm.

@@ -11,9 +11,9 @@ const FLAT: [f64; 3] = [0.0, 0.0, 1.0];
 /// Sums of the angles between true and other normals, in degrees.
 #[derive(Default)]
 pub(super) struct NormalAngles {
-    /// Angles between true and predicted normals.
+    /// Sum of the angles between true and predicted normals, degrees.
     pub(super) prediction: ExactSum,
-    /// Angles between true normals and the normal of a flat surface.
+    /// Sum of the angles between true normals and the normal of a flat surface, degrees.
     pub(super) flat: ExactSum,
     /// Number of normals.
     pub(super) count: u64,
@@ -22,7 +22,7 @@ pub(super) struct NormalAngles {
 impl NormalAngles {
     /// Angles of all inner pixels that are valid in both maps together with their four neighbours.
     ///
-    /// `pixel_mm` has the distances of neighbouring columns and rows. Slopes are central differences.
+    /// `pixel_mm` is the distance of neighbouring columns, then of neighbouring rows, in mm. Slopes are central differences.
     pub(super) fn of(truth: &DepthMap, prediction: &DepthMap, pixel_mm: [f64; 2]) -> NormalAngles {
         let mut angles = NormalAngles::default();
         let [rows, columns] = truth.size();

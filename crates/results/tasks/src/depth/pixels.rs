@@ -1,4 +1,4 @@
-//! Exact sums of one pair of depth maps, with t the true and p the predicted depth.
+//! Exact sums of one pair of depth maps, true and predicted.
 
 use taceva_metrics::{Dyadic, ExactSum};
 
@@ -13,7 +13,7 @@ pub(super) const COUNTS: usize = 10;
 /// Totals of a cluster of maps.
 pub(super) type DepthTotals = Totals<SUMS, COUNTS>;
 
-/// Indices of the sums and counts of an area: all valid pixels, or valid pixels with contact in the truth. An error is truth − prediction.
+/// Indices of the error sums and counts of an area: all valid pixels, or those with contact in the truth. Error: truth − prediction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Area {
     /// Index of the sum of absolute errors, mm. The sums of errors and of squared errors follow.
@@ -150,13 +150,13 @@ impl MapSums {
     }
 }
 
-/// The three sums of `area`.
+/// Sums of the absolute errors, the errors and the squared errors of `area`.
 fn area_sums(totals: &mut DepthTotals, area: Area) -> &mut [ExactSum; 3] {
     let sums = &mut totals.sums[area.sums..area.sums + 3];
     sums.try_into().expect("three sums")
 }
 
-/// Mean absolute error for `which` 0, mean of truth − prediction for 1; `None` without a pixel.
+/// Mean absolute error of `area` if `which` is 0, or mean of truth − prediction if `which` is 1; `None` without a pixel.
 pub(super) fn mean(totals: &DepthTotals, area: Area, which: usize) -> Option<f64> {
     let pixels = totals.counts[area.pixels];
     let sum = totals.sums[area.sums + which].to_dyadic();

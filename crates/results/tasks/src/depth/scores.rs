@@ -13,16 +13,16 @@ use crate::score::TaskScore;
 use crate::totals::{LeaveOneOut, error, signed};
 use crate::undefined::Undefined;
 
-/// Totals of all clusters of maps, and totals without each cluster.
+/// Totals of all clusters of maps, and for each cluster the totals of all others.
 type Clusters<'a> = LeaveOneOut<'a, SUMS, COUNTS>;
 
-/// An error of depth over pixels, and its mean over maps.
+/// Error of depth, computed over all pixels and as a mean over maps.
 struct Measure {
     metric: &'static str,
     words: &'static str,
     range: fn(Result<f64, Undefined>) -> Range,
     of_pixels: fn(&DepthTotals, Area) -> Option<f64>,
-    /// Index of the sum over maps.
+    /// Index of the sum over maps of each map's error.
     of_maps: usize,
 }
 
@@ -52,7 +52,7 @@ const MEASURES: [Measure; 3] = [
 ];
 
 impl DepthState {
-    /// Scores of all maps. The constant of errors is the mean training map, if the task has one. The constant of normals is a flat surface.
+    /// Scores of all maps. Errors are compared with those of the task's constant map if given, angles of normals with those of a flat surface.
     #[must_use]
     pub fn scores(&self) -> Vec<TaskScore> {
         let clusters = Clusters::of(&self.clusters);
@@ -98,7 +98,7 @@ impl DepthState {
         self.three("depth_max", "greatest |truth - prediction|", all)
     }
 
-    /// Scores of a metric: over valid pixels, as mean over maps, and over pixels in contact.
+    /// Three scores of a metric: over valid pixels, as the mean over maps, and over pixels in contact.
     fn three(
         &self,
         metric: &'static str,
@@ -179,7 +179,7 @@ fn of_area(totals: &DepthTotals, area: Area, value: Option<f64>) -> Result<f64, 
     })
 }
 
-/// Mean of the sum `sum` over maps with a valid pixel.
+/// Mean over the maps with a valid pixel, from the sum at index `sum`.
 fn of_maps(totals: &DepthTotals, sum: usize) -> Result<f64, Undefined> {
     match totals.counts[MAPS] {
         0 => Err(without_pixel(totals)),

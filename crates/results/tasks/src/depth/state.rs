@@ -36,7 +36,7 @@ pub struct DepthState {
     pub(super) greatest_of_constant: [f64; 2],
 }
 
-/// State before its checks, with counts that may contradict each other.
+/// Deserialized state, not yet validated: counts may contradict each other.
 #[derive(Deserialize)]
 struct Stored {
     task: DepthTask,
@@ -177,7 +177,7 @@ impl DepthState {
         self.count(NEGATIVE)
     }
 
-    /// Count `index` of all clusters.
+    /// Sum over all clusters of the count at index `index`.
     fn count(&self, index: usize) -> u64 {
         let clusters = self.clusters.values();
         clusters.map(|cluster| cluster.counts[index]).sum()

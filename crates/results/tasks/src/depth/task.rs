@@ -7,7 +7,7 @@ use super::map::DepthMap;
 use crate::error::TaskError;
 use crate::vector::GREATEST_MM;
 
-/// Definition of a task of depth maps: contact gate, pixel size, constant to beat.
+/// Definition of a task of depth maps: contact threshold (gate), pixel size, constant map to beat.
 ///
 /// By default the gate is 0.02 mm, and no pixel size and no constant is given.
 ///
@@ -27,7 +27,7 @@ pub struct DepthTask {
     constant: Option<DepthMap>,
 }
 
-/// Task before its checks, with numbers that may be out of range.
+/// Deserialized task, not yet validated: numbers may be out of range.
 #[derive(Deserialize)]
 struct Stored {
     gate_mm: f64,
@@ -95,7 +95,7 @@ impl DepthTask {
         }
     }
 
-    /// Gate of contact, mm.
+    /// Gate: the depth above which a pixel is in contact, mm.
     #[must_use]
     pub fn gate_mm(&self) -> f64 {
         self.gate_mm
@@ -106,7 +106,7 @@ impl DepthTask {
         self.pixel_mm
     }
 
-    /// Constant to beat; `None` if not given.
+    /// Constant depth map to beat; `None` if not given.
     pub(super) fn constant(&self) -> Option<&DepthMap> {
         self.constant.as_ref()
     }

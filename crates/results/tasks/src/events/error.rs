@@ -41,7 +41,7 @@ pub enum EventError {
     TimeGoesBack {
         /// Row of the frame with the earlier time.
         row: u64,
-        /// Time of this frame, s.
+        /// Time of the frame in `row`, s.
         time_s: f64,
         /// Row of the frame before.
         before_row: u64,

@@ -5,7 +5,7 @@ use super::error::EventError;
 /// Greatest magnitude of a time, s.
 const GREATEST_S: f64 = 1e12;
 
-/// Frame of a sequence with its true label and the score of its event.
+/// Frame of a sequence, with its true label and a predicted score of an event such as slip.
 ///
 /// ```
 /// use taceva_tasks::events::Frame;

@@ -21,7 +21,7 @@ pub struct OnsetPair {
 /// Two onsets within the tolerance.
 struct Candidate {
     pair: OnsetPair,
-    /// Distance, in whole microseconds.
+    /// Distance between the two onsets, in whole microseconds.
     distance: f64,
 }
 

@@ -25,7 +25,7 @@ pub struct EventRule {
     tolerance_s: f64,
 }
 
-/// Rule before its checks, with numbers that may be out of range.
+/// Deserialized rule, not yet validated: numbers may be out of range.
 #[derive(Deserialize)]
 struct Stored {
     threshold: f64,

@@ -12,7 +12,7 @@ use crate::score::{ScoreFlag, TaskScore};
 use crate::totals::{LeaveOneOut, error, signed};
 use crate::undefined::Undefined;
 
-/// Totals of all clusters of sequences, and totals without each cluster.
+/// Totals of all clusters of sequences, and for each cluster the totals of all others.
 type Clusters<'a> = LeaveOneOut<'a, 2, 6>;
 
 impl EventState {
@@ -64,7 +64,7 @@ impl EventState {
         scores.map(|score| score.flagged(flags)).into()
     }
 
-    /// Delay that 95 % of matched onsets do not exceed.
+    /// 95th percentile of the delays of matched onsets, s.
     fn delay_point(&self, totals: &EventTotals) -> Result<f64, Undefined> {
         check_times(totals)?;
         let rank = (19 * self.delays.len()).div_ceil(20);
@@ -73,7 +73,7 @@ impl EventState {
     }
 }
 
-/// Reason for a missing score if there is no frame, or a sequence has no times.
+/// Returns an error if there is no frame, or if a sequence has no times.
 fn check_times(totals: &EventTotals) -> Result<(), Undefined> {
     match (totals.counts[FRAMES], totals.counts[UNTIMED]) {
         (0, _) => Err(Undefined::Empty),

@@ -49,7 +49,7 @@ pub struct EventState {
     pub(super) delays: Vec<f64>,
 }
 
-/// State before its checks, with counts and delays that may contradict each other.
+/// Deserialized state, not yet validated: counts and delays may contradict each other.
 #[derive(Deserialize)]
 struct Stored {
     rule: EventRule,

@@ -5,11 +5,11 @@ use taceva_metrics::{ExactSum, NearestPoints};
 use super::rigid::Pose;
 use crate::vector::{length, minus};
 
-/// Sums over the points of an object in a true and in a predicted pose, mm.
+/// Sums of distances between an object's points in a true and in a predicted pose, mm.
 pub(super) struct PointDistances {
-    /// Distances of the same point in both poses: ADD.
+    /// Sum of the distances between the positions of each point in both poses, as in the score ADD.
     pub(super) same: ExactSum,
-    /// Distances of each true point to the nearest predicted point: ADD-S.
+    /// Sum of the distances from each true point to the nearest predicted point, as in the score ADD-S.
     pub(super) nearest: ExactSum,
 }
 

@@ -61,7 +61,9 @@ impl EulerErrors {
         self
     }
 
-    /// Mean difference about axis `axis`, 0 to 2, as numbers and the shorter way, in degrees; `None` without a pose.
+    /// Mean differences about axis `axis`, 0 to 2, in degrees; `None` without a pose.
+    ///
+    /// The first difference is that of the plain numbers, the second goes the shorter way round.
     ///
     /// # Panics
     /// If `axis` is above 2.

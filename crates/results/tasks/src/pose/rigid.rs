@@ -19,7 +19,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// Zero motion.
+    /// Identity: no rotation and no translation.
     pub const ZERO: Pose = Pose {
         translation_mm: [0.0; 3],
         rotation: Rotation::IDENTITY,
@@ -49,7 +49,7 @@ impl Pose {
         self.rotation
     }
 
-    /// Distance of the positions of both poses, mm.
+    /// Distance between the positions of both poses, mm.
     #[must_use]
     pub fn distance_mm(&self, other: &Pose) -> f64 {
         length(minus(other.translation_mm, self.translation_mm))

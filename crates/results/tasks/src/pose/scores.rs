@@ -7,16 +7,16 @@ use crate::score::TaskScore;
 use crate::totals::{LeaveOneOut, error};
 use crate::undefined::Undefined;
 
-/// Totals of all clusters of poses, and totals without each cluster.
+/// Totals of all clusters of poses, and for each cluster the totals of all others.
 type Clusters<'a> = LeaveOneOut<'a, 7, 4>;
 
-/// Names of the axes with a sum of differences.
+/// Axes along which the errors of translation are scored.
 const AXIS_NAMES: [&str; 3] = ["x", "y", "z"];
-/// Names of the axes with bins.
+/// Coordinates of a pose that are classified into bins.
 const BIN_NAMES: [&str; 3] = ["x", "y", "yaw"];
 
 impl PoseState {
-    /// Scores of all poses. The constant of errors is zero motion, and the constant of bins is the most frequent bin.
+    /// Scores of all poses. Errors are compared with those of a prediction of no motion, shares of right bins with the most frequent bin.
     #[must_use]
     pub fn scores(&self) -> Vec<TaskScore> {
         let clusters = Clusters::of(&self.clusters);
@@ -45,7 +45,7 @@ impl PoseState {
         scores
     }
 
-    /// Mean of the sum `sum` over poses, with the error of zero motion as the constant.
+    /// Mean error over the poses, from the sum at index `sum`. The constant to beat predicts no motion.
     fn error(
         &self,
         clusters: &Clusters<'_>,
@@ -61,7 +61,7 @@ impl PoseState {
         }
     }
 
-    /// Shares of right bins: the mean of three axes, and each axis.
+    /// Share of poses with the right bin: the mean over x, y and yaw, then each of them.
     fn bin_scores(&self, clusters: &Clusters<'_>) -> Vec<TaskScore> {
         let Some(thresholds) = &self.task.thresholds else {
             let none = |_: &PoseTotals| Err(Undefined::NoThresholds);
@@ -98,7 +98,7 @@ impl PoseState {
         scores
     }
 
-    /// Mean of the sum `sum` over the points of all poses.
+    /// Mean distance over the points of all poses, from the sum at index `sum`.
     fn points(
         &self,
         clusters: &Clusters<'_>,
@@ -128,7 +128,7 @@ fn most(bins: &[u64]) -> u64 {
     bins.iter().copied().max().unwrap_or_default()
 }
 
-/// `right` divided by the number of axes of all poses, `n` × `axes`.
+/// Number of right bins divided by the number of all bins: `n` poses times `axes`.
 fn of_all(right: u64, n: u64, axes: usize) -> Result<f64, Undefined> {
     match n {
         0 => Err(Undefined::Empty),

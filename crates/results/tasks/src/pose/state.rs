@@ -17,15 +17,15 @@ use crate::vector::minus;
 pub(super) const TRANSLATION: usize = 0;
 /// Index of the sum of absolute differences along x, mm; the sums along y and z follow.
 pub(super) const AXES: usize = 1;
-/// Index of the sum of angles, degrees.
+/// Index of the sum of angles between both rotations, degrees.
 pub(super) const ROTATION: usize = 4;
-/// Index of the sum of distances of points, mm.
+/// Index of the sum of distances between the positions of each object point in both poses, mm.
 pub(super) const ADD: usize = 5;
-/// Index of the sum of distances to the nearest point, mm.
+/// Index of the sum of distances from each true object point to the nearest predicted point, mm.
 pub(super) const ADD_S: usize = 6;
 /// Index of the number of poses.
 pub(super) const POSES: usize = 0;
-/// Index of the number of right bins along x; the numbers along y and of yaw follow.
+/// Index of the number of poses with the right bin along x; the numbers for y and for yaw follow.
 pub(super) const RIGHT: usize = 1;
 
 /// Totals of a cluster of poses.
@@ -48,7 +48,7 @@ pub struct PoseTask {
     pub(super) points: Vec<[f64; 3]>,
 }
 
-/// Task before its checks, with points that may be NaN or infinite.
+/// Deserialized task, not yet validated: points may be NaN or infinite.
 #[derive(Deserialize)]
 struct StoredTask {
     thresholds: Option<Thresholds>,
@@ -103,13 +103,13 @@ impl PoseTask {
 pub struct PoseState {
     pub(super) task: PoseTask,
     pub(super) clusters: ByCluster<PoseTotals>,
-    /// Totals of zero motion as the prediction.
+    /// Totals of the errors of a prediction of no motion.
     pub(super) still: PoseTotals,
     /// Number of true poses by bin along x, along y and of yaw.
     pub(super) bins: [Vec<u64>; 3],
 }
 
-/// State before its checks, with counts that may contradict each other.
+/// Deserialized state, not yet validated: counts may contradict each other.
 #[derive(Deserialize)]
 struct Stored {
     task: PoseTask,

@@ -8,9 +8,9 @@ use crate::undefined::Undefined;
 /// Number of bins of equal numbers of samples.
 pub(super) const BINS: u64 = 15;
 
-/// Expected calibration error in [`BINS`] bins of equal numbers of samples. `levels` ascend.
+/// Expected calibration error in [`BINS`] bins of equal numbers of samples. `levels` are the counts of each probability, ascending.
 ///
-/// A level is in the bin of its middle sample, so equal probabilities are never divided, and the error depends only on the samples. Levels without
+/// Samples of equal probability share the bin of their middle sample, so the error does not depend on their order. Levels without
 /// samples change nothing.
 pub(super) fn expected_error(levels: &[Level]) -> Result<f64, Undefined> {
     let n = Sides::of(levels).n();
@@ -35,7 +35,7 @@ pub(super) fn expected_error(levels: &[Level]) -> Result<f64, Undefined> {
     Ok(sum.to_dyadic().over(&Dyadic::from(n)))
 }
 
-/// Number of positive samples minus the sum of predicted probabilities, in the current bin.
+/// Current bin, and its number of positive samples minus the sum of its predicted probabilities.
 #[derive(Default)]
 struct Bins {
     at: u128,

@@ -71,7 +71,7 @@ impl Losses {
         }
     }
 
-    /// The losses minus the losses of `part`, which must be included.
+    /// The losses without those of `part`. These losses must include `part`.
     pub(super) fn without(&self, part: &Losses) -> Losses {
         let mut left = self.clone();
         left.n -= part.n;

@@ -8,7 +8,7 @@ use crate::undefined::Undefined;
 /// Numbers of samples with one score.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Level {
-    /// The score.
+    /// Score of these samples.
     pub(crate) score: f64,
     /// Number of samples of the positive class.
     pub(crate) positive: u64,
@@ -53,7 +53,7 @@ impl Sides {
 
 /// Probability that a positive sample has a greater score than a negative sample; equal scores count half.
 ///
-/// `levels` ascend. Levels without samples do not change the result.
+/// `levels` are the counts of each score, in ascending order. Levels without samples do not change the result.
 pub(crate) fn roc_auc(levels: &[Level]) -> Result<f64, Undefined> {
     let sides = Sides::of(levels);
     match (sides.positive, sides.negative) {
@@ -71,7 +71,9 @@ pub(crate) fn roc_auc(levels: &[Level]) -> Result<f64, Undefined> {
     Ok(ratio(halves, 2 * pairs))
 }
 
-/// Average precision: the sum over all levels of the precision at the level times the recall that the level adds. `levels` ascend.
+/// Average precision: sum over the scores of the precision at a score times the recall that the score adds.
+///
+/// `levels` are the counts of each score, in ascending order.
 pub(crate) fn average_precision(levels: &[Level]) -> Result<f64, Undefined> {
     let positive = positives(levels)?;
     let mut above = Sides::default();

@@ -1,4 +1,4 @@
-//! Sorted scores of each class, and their counts score by score.
+//! Sorted scores of each class, and the number of samples with each score.
 
 use std::iter::from_fn;
 
@@ -53,7 +53,7 @@ impl SortedKeys {
         (self.positive.len() + self.negative.len()) as u64
     }
 
-    /// Rounds all keys to the grid, which keeps their order.
+    /// Rounds all keys to multiples of 2⁻¹⁶, which keeps their order.
     pub(super) fn round_to_grid(&mut self) {
         for key in self.positive.iter_mut().chain(&mut self.negative) {
             *key = key.on_grid();
@@ -79,7 +79,7 @@ impl SortedKeys {
     }
 }
 
-/// Takes all `key` away from the beginning of `keys`, and counts them.
+/// Removes all keys equal to `key` from the front of `keys`, and returns their number.
 fn count_first(keys: &mut &[ScoreKey], key: ScoreKey) -> u64 {
     let n = keys.iter().take_while(|own| **own == key).count();
     *keys = &keys[n..];

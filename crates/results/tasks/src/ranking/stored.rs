@@ -1,4 +1,4 @@
-//! Rankings in files: levels of each cluster.
+//! Rankings in files: counts of each distinct score, by cluster.
 
 use std::collections::BTreeMap;
 

@@ -12,7 +12,7 @@ pub(super) struct OneWay {
     below: u64,
     /// Number of distances of the threshold τ or below.
     up_to: u64,
-    /// Number of points.
+    /// Number of points of the first cloud.
     points: u64,
 }
 
@@ -40,7 +40,7 @@ impl OneWay {
     }
 }
 
-/// Distances both ways.
+/// Distances from the first cloud to the second, and from the second to the first.
 pub(super) struct BothWays(pub(super) [OneWay; 2]);
 
 impl BothWays {
@@ -70,7 +70,7 @@ impl BothWays {
         mean(one).plus(&mean(other))
     }
 
-    /// 2 p r / (p + r) of the shares p = a / n and r = b / m, which is 2 a b / (a m + b n); 0 if both are 0.
+    /// F score 2 p r / (p + r) of the shares p and r of `hits` among the points of both clouds; 0 if both are 0.
     fn f_score(&self, hits: impl Fn(&OneWay) -> u64) -> f64 {
         let [one, other] = &self.0;
         let [a, b] = [one, other].map(|way| u128::from(hits(way)));

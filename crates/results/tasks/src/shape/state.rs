@@ -23,9 +23,9 @@ const F_INCLUSIVE: usize = 3;
 /// Index of the number of pairs of clouds.
 const CLOUDS: usize = 0;
 
-/// Totals of a cluster of clouds.
+/// Totals of the pairs of clouds in one cluster.
 type ShapeTotals = Totals<4, 1>;
-/// Totals of all clusters of clouds, and totals without each cluster.
+/// Totals of all clusters, and for each cluster the totals of all others.
 type Clusters<'a> = LeaveOneOut<'a, 4, 1>;
 /// Function from totals to a value.
 type ValueOf = fn(&ShapeTotals) -> Result<f64, Undefined>;
@@ -80,7 +80,7 @@ pub struct ShapeState {
     clusters: ByCluster<ShapeTotals>,
 }
 
-/// State before its checks. The threshold τ and counts may be out of range.
+/// Deserialized state, not yet validated: the threshold τ and counts may be out of range.
 #[derive(Deserialize)]
 struct Stored {
     task: ShapeTask,
@@ -156,7 +156,7 @@ impl ShapeState {
         Ok(self)
     }
 
-    /// Scores of the state: means over all pairs of clouds.
+    /// Scores of the task: means over all pairs of clouds.
     #[must_use]
     pub fn scores(&self) -> Vec<TaskScore> {
         let clusters = Clusters::of(&self.clusters);
@@ -189,7 +189,7 @@ impl ShapeState {
         ]
     }
 
-    /// Mean F score, computed from the sum `sum`.
+    /// Mean F score over the pairs of clouds, from the sum at index `sum`.
     fn f_score(
         &self,
         clusters: &Clusters<'_>,

@@ -46,7 +46,7 @@ pub(crate) fn close(found: f64, expected: f64, relative: f64, name: &str) {
     );
 }
 
-/// The value of the score `metric` of `variant`.
+/// Value of the score with this `metric` and `variant`.
 pub(crate) fn value(scores: &[TaskScore], metric: &str, variant: Option<&str>) -> f64 {
     score(scores, metric, variant)
         .estimate

@@ -1,4 +1,4 @@
-//! Scores of classes beside exact fractions.
+//! Scores of classes, compared with exact fractions.
 
 use crate::golden::{classes, entries, fraction, name, same, score, tasks, value};
 use serde_json::Value;
@@ -250,7 +250,7 @@ fn scores_are_written_with_their_reasons() -> Result<(), serde_json::Error> {
     Ok(())
 }
 
-/// State of the given true and predicted classes of numbered clips.
+/// State with the true and predicted classes of each clip, named by its number.
 fn of_clips<'a>(clips: impl Iterator<Item = (usize, &'a [[&'a str; 2]])>) -> Classes {
     let mut classes = Classes::new(["denim", "silk", "wool"], None).expect("names");
     for (number, rows) in clips {

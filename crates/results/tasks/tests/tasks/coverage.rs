@@ -1,4 +1,5 @@
-//! Intervals by stroke hold the expected score as often as stated; intervals by frame do not. `examples/coverage_of_tasks.rs` runs more.
+//! Intervals by stroke hold the expected score as often as stated; intervals by frame do not. `examples/coverage_of_tasks.rs`
+//! simulates more recordings.
 
 use crate::simulated::{Cluster, METRICS, Strokes};
 

@@ -11,7 +11,7 @@ fn row_of(mm: &[f64]) -> DepthMap {
     DepthMap::new(1, mm.len(), mm.to_vec()).expect("a map")
 }
 
-/// State with one pair of rows for each cluster, at the default gate.
+/// State with one cluster for each pair of true and predicted one-row map.
 fn state_of(task: DepthTask, pairs: &[[&[f64]; 2]]) -> DepthState {
     let mut state = DepthState::new(task);
     for (row, [truth, prediction]) in (1..).zip(pairs) {
@@ -349,7 +349,7 @@ fn states_of_other_gates_do_not_merge_and_those_of_one_mean_map_do() {
     assert_eq!(merged.scores(), whole.scores());
 }
 
-/// State of all pairs but the first, in reverse order and in the clusters of [`state_of`].
+/// State of all pairs but the first, added in reverse order, with the cluster names of [`state_of`].
 fn rest_of(task: DepthTask, pairs: &[[&[f64]; 2]]) -> DepthState {
     let mut state = DepthState::new(task);
     for (row, [truth, prediction]) in (1..)

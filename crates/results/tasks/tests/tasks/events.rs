@@ -8,7 +8,7 @@ use taceva_tasks::{ScoreFlag, Undefined};
 
 use super::cases::{case, close, number, numbers, score, value};
 
-/// Frames of 10 Hz from `start_s`, whose labels and scores are the letters: `t` true, `p` predicted, `b` both, `.` none.
+/// Frames at 10 Hz from `start_s`, one per letter: `t` is a true event, `p` a predicted event, `b` both, `.` neither.
 fn frames(start_s: f64, letters: &str) -> Vec<Frame> {
     let frame = |(at, letter): (u32, char)| {
         let time_s = start_s + f64::from(at) * 0.1;

@@ -20,7 +20,7 @@ pub(crate) fn entries<'a>(of: &'a Value, key: &str) -> &'a [Value] {
         .unwrap_or_else(|| panic!("no array {key}"))
 }
 
-/// Name of a set.
+/// Name of a golden data set.
 pub(crate) fn name(of: &Value) -> &str {
     of["name"].as_str().expect("a name")
 }
@@ -42,7 +42,7 @@ pub(crate) fn positions(of: &Value, key: &str) -> Vec<u32> {
         .collect()
 }
 
-/// The fraction of `of`, such as 2/3, rounded once; `None` for null.
+/// Parses the key `fraction` of `of`, such as 2/3; `None` for null.
 pub(crate) fn fraction(of: &Value) -> Option<f64> {
     let (above, below) = of["fraction"].as_str()?.split_once('/')?;
     let [above, below]: [f64; 2] = [above, below].map(|part| part.parse().expect("a number"));
@@ -79,7 +79,7 @@ pub(crate) fn ranking(set: &Value) -> Ranking {
     ranking
 }
 
-/// State of the classes of a set that are predicted as positive above the score 0.5.
+/// State of a set's classes, predicted as positive if the score is above 0.5.
 pub(crate) fn above_a_half(set: &Value) -> Classes {
     let mut classes = Classes::new(["negative", "positive"], Some("positive")).expect("names");
     let predicted: Vec<u32> = numbers(set, "score")
@@ -115,7 +115,7 @@ pub(crate) fn score<'a>(
     found.unwrap_or_else(|| panic!("no {metric} {variant:?}"))
 }
 
-/// The value of `metric` and `variant`.
+/// Value of the score with this `metric` and `variant`.
 pub(crate) fn value(
     scores: &[TaskScore],
     metric: &str,

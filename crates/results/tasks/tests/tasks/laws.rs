@@ -26,7 +26,7 @@ impl Row {
         self.eighths.map(|eighths| f64::from(eighths) / 8.0)
     }
 
-    /// Probabilities with ties; one row in eight has none.
+    /// Probabilities with ties. Scores that are all 0 give numbers that are not probabilities.
     fn probabilities(&self) -> [f64; 3] {
         let sum: u32 = self.eighths.iter().sum();
         match sum {
@@ -118,7 +118,7 @@ fn of<S: State>(rows: &[Row]) -> S {
     state
 }
 
-/// Fails unless another order, divided at random and merged in a random tree, gives the same state and scores.
+/// Fails unless shuffled rows, divided at random into states and merged in random order, give the same state and scores.
 fn hold<S: State>(rows: &[Row], seed: u64) {
     let expected: S = of(rows);
     let mut random = SplitMix64::new(seed);

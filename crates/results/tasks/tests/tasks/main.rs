@@ -1,4 +1,4 @@
-//! Scores of tasks beside exact fractions and beside those of other libraries.
+//! Scores of tasks, compared with exact fractions and with scores of other libraries.
 
 mod as_published;
 mod cases;

@@ -1,4 +1,4 @@
-//! Scores of scikit-learn and of torchmetrics: equal where both are defined, and every difference with its reason.
+//! Scores of scikit-learn and torchmetrics. They equal the scores of TacEva wherever both are defined, except for explained differences.
 
 use crate::golden::{
     above_a_half, classes, entries, name, probabilities, ranking, score, tasks, torchmetrics, value,
@@ -6,10 +6,10 @@ use crate::golden::{
 use serde_json::Value;
 use taceva_tasks::Undefined;
 
-/// Half of the last place of a share in single precision.
+/// Greatest accepted difference from a library that computes in single precision.
 const SINGLE: f64 = 1e-7;
 
-/// A number of a library that differs from ours.
+/// A score of another library that differs from the score of TacEva.
 #[derive(Debug, PartialEq)]
 struct Difference {
     set: String,
@@ -19,7 +19,7 @@ struct Difference {
 }
 
 impl Difference {
-    /// The difference if it exceeds `within`, relative to numbers above 1.
+    /// The difference if it exceeds `within`, relative to `theirs` if that is above 1 in magnitude.
     fn beyond(
         within: f64,
         set: &Value,
@@ -40,7 +40,7 @@ impl Difference {
         })
     }
 
-    /// A difference from a number that we leave undefined.
+    /// A score that the other library defines and TacEva does not.
     fn undefined(set: &str, score: &'static str, theirs: f64) -> Difference {
         Difference {
             set: set.to_owned(),

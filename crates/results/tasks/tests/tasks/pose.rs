@@ -21,7 +21,7 @@ fn turned(degrees: f64) -> Pose {
     Pose::new(1, [0.0; 3], rotation.expect("a unit quaternion")).expect("finite")
 }
 
-/// Thresholds of the published bench.
+/// Thresholds of a published benchmark, in mm and degrees.
 fn bench() -> Thresholds {
     let rotation = ["0.03", "0.2", "0.5", "1", "2"];
     Thresholds::new(&["0.1", "0.5", "1", "2", "5"], &rotation).expect("ascending decimals")

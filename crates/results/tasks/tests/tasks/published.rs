@@ -1,4 +1,4 @@
-//! The grasp scores of TacBench, with honest intervals beside.
+//! Grasp scores of TacBench, with published and correct intervals.
 
 use crate::golden::tasks;
 use serde_json::Value;

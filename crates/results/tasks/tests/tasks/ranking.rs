@@ -1,4 +1,4 @@
-//! Rankings beside exact fractions.
+//! Rankings, compared with exact fractions.
 
 use crate::golden::{above_a_half, entries, fraction, name, ranking, same, score, tasks, value};
 use taceva_metrics::{ClusteredBy, Interval, LeftOut, Range};
@@ -93,7 +93,7 @@ fn both_zeros_are_one_score() {
     assert_eq!(scores[0].flags, [ScoreFlag::AllScoresEqual]);
 }
 
-/// 65,537 different scores in an order that mixes them, every third positive.
+/// 65,537 different scores in shuffled order. Every third sample is positive.
 fn many() -> (Vec<f64>, Vec<bool>) {
     let scores = (0..65_537_u32).map(|row| f64::from(row * 7919 % 65_537) / 131_074.0);
     let is_positive = (0..65_537_u32).map(|row| row % 3 == 0);

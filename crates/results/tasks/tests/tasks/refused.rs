@@ -150,7 +150,7 @@ fn control_characters_of_a_class_are_escaped() {
     assert!(text.contains("sl\\u{1b}ip"), "{text}");
 }
 
-/// Text of the error of reading `state` with `part` in the place of `whole`.
+/// Error message for the JSON text of `state` after `part` replaces `whole`.
 fn damage<S: Serialize + DeserializeOwned>(state: &S, whole: &str, part: &str) -> String {
     let text = serde_json::to_string(state).expect("JSON");
     assert!(text.contains(whole), "{text}");

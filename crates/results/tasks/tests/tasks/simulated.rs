@@ -1,4 +1,4 @@
-//! Simulated strokes whose labels and scores are alike within a stroke.
+//! Simulated strokes, whose labels and scores are correlated within a stroke.
 
 use taceva_core::random::SplitMix64;
 use taceva_metrics::distributions::normal;
@@ -6,14 +6,14 @@ use taceva_tasks::{Classes, Ranking, TaskScore};
 
 /// Share of the variance of labels and of scores that the frames of a stroke have in common.
 const COMMON: f64 = 0.3;
-/// Distance of the mean scores of both classes, standard deviations.
+/// Distance between the mean scores of both classes, in standard deviations.
 const DISTANCE: f64 = 1.6;
 /// Score above which slip is predicted.
 const THRESHOLD: f64 = 1.0;
-/// Frames of a stroke.
+/// Number of frames of a stroke.
 const FRAMES: u32 = 25;
 
-/// Strokes of a recording.
+/// Parameters of the strokes of a simulated recording.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Strokes {
     /// Share of frames that slip.
@@ -22,7 +22,7 @@ pub(crate) struct Strokes {
     pub(crate) strokes: u32,
 }
 
-/// Samples that an interval leaves out together.
+/// Samples that the jackknife of an interval leaves out together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Cluster {
     /// Whole strokes.
@@ -34,23 +34,23 @@ pub(crate) enum Cluster {
 /// Scores whose intervals are examined.
 pub(crate) const METRICS: [&str; 3] = ["f1", "balanced_accuracy", "average_precision"];
 
-/// Runs in which an interval held the score of infinitely many strokes.
+/// Number of runs in which an interval contained the expected score.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Held {
-    /// Runs whose interval held it.
+    /// Number of runs whose interval contained the expected score.
     pub(crate) held: u32,
-    /// Runs with an interval.
+    /// Number of runs with an interval.
     pub(crate) intervals: u32,
 }
 
 impl Held {
-    /// Share of the intervals that held it.
+    /// Share of intervals that contained the expected score.
     pub(crate) fn share(self) -> f64 {
         f64::from(self.held) / f64::from(self.intervals)
     }
 }
 
-/// A normal number by its quantile.
+/// Draws a standard normal number by inverting its distribution.
 fn normal_number(random: &mut SplitMix64) -> f64 {
     // In the middle of a step of 2⁻⁵³, so never 0.
     normal::quantile(random.unit() + 0.5_f64.powi(54))
@@ -65,7 +65,7 @@ struct Frame {
 impl Strokes {
     /// Scores of infinitely many strokes, in the order of [`METRICS`].
     pub(crate) fn expected(self) -> [f64; 3] {
-        /// Step of the sum over thresholds, standard deviations.
+        /// Step of the sum over thresholds, in standard deviations.
         const STEP: f64 = 1e-3;
         let [hits, alarms] = [
             normal::below(DISTANCE - THRESHOLD),
@@ -101,7 +101,7 @@ impl Strokes {
         (0..FRAMES).map(frame).collect()
     }
 
-    /// Scores of one recording, drawn by `seed`. A ranking by single frames costs too much and is left out.
+    /// Scores of one recording, simulated with `seed`. Single frames as clusters give no ranking, which would take too long.
     fn scores(self, cluster: Cluster, seed: u64) -> Vec<TaskScore> {
         let mut random = SplitMix64::new(seed);
         let mut classes = Classes::new(["no_slip", "slip"], Some("slip")).expect("names");

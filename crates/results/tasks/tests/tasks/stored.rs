@@ -8,7 +8,7 @@ use taceva_tasks::events::{EventRule, EventState, Frame};
 use taceva_tasks::pose::{Pose, PoseState, PoseTask, Thresholds};
 use taceva_tasks::shape::{ShapeState, ShapeTask};
 
-/// Text of the error of reading `state` with `part` at `pointer`.
+/// Error message for reading the JSON of `state` with `part` at the JSON pointer `pointer`.
 fn damage<S: Serialize + DeserializeOwned>(state: &S, pointer: &str, part: Value) -> String {
     let text = serde_json::to_string(state).expect("JSON");
     let mut stored: Value = serde_json::from_str(&text).expect("JSON");

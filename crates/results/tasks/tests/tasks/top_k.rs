@@ -1,4 +1,4 @@
-//! Shares of the first k places beside exact fractions.
+//! Shares of the first k places, compared with exact fractions.
 
 use crate::golden::{entries, fraction, positions, same, tasks, torchmetrics, value};
 use taceva_tasks::{TaskScore, TopK, Undefined};
@@ -18,7 +18,7 @@ fn top_k() -> TopK {
     top_k
 }
 
-/// Values with ties expected, for and against.
+/// Values for the three treatments of equal scores: expected, for and against the true class.
 fn values(scores: &[TaskScore], k: u64) -> [Option<f64>; 3] {
     ["", " ties_for", " ties_against"]
         .map(|ties| value(scores, "top_k", Some(&format!("k={k}{ties}"))).ok())

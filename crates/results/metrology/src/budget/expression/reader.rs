@@ -4,7 +4,7 @@ use taceva_core::{shown, suggestion};
 
 use super::{ExpressionError, Function, Step};
 
-/// Greatest nesting of brackets, powers and signs.
+/// Greatest number of nested brackets, powers and signs.
 const DEEPEST: usize = 100;
 
 const FUNCTIONS: [(&str, Function); 6] = [

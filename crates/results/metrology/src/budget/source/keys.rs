@@ -24,7 +24,7 @@ fn is_lasting(figure: &str) -> bool {
 }
 
 impl Reader<'_> {
-    /// Requires exactly one origin for each source, and rejects keys of other origins.
+    /// Requires exactly one of `from`, `u`, `U`, `s`, `rows` and `half_width`, and rejects keys that do not go with it.
     pub(super) fn check_keys(&self, of: &WrittenSource) -> Result<(), BudgetError> {
         let origins = [
             of.from.is_some(),

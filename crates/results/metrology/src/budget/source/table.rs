@@ -63,7 +63,7 @@ impl Reader<'_> {
         })
     }
 
-    /// Mean of rows, with u = s/√n and n − 1 degrees of freedom.
+    /// Mean of n rows with the standard deviation s: u = s/√n, with n − 1 degrees of freedom.
     fn of_rows(&self, rows: &Spanned<Vec<f64>>) -> Result<Numbers, BudgetError> {
         let values = rows.get_ref();
         if values.len() < 2 || values.iter().any(|value| !value.is_finite()) {

@@ -125,7 +125,7 @@ fn a_coverage_outside_0_to_1_is_refused() {
     assert!(source("U = \"1 mN\"\np = 1.5").starts_with("line 7, `p`"));
 }
 
-/// Error message for three sources with these correlations.
+/// Error message for three sources with the correlation tables `rest`.
 fn correlations(rest: &str) -> String {
     let mut text = "budget_version = 1\nmeasurand = \"Fz\"\nat = [\"1 N\"]\n".to_owned();
     for name in ["one", "two", "three"] {

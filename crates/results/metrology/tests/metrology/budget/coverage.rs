@@ -3,7 +3,7 @@
 use taceva_core::random::Draws;
 use taceva_metrology::budget::{Budget, BudgetText, Evidence, Figure, Freedom, Residuals};
 
-/// Standard deviations of places, presses and units, in N.
+/// Standard deviation between places, N. Those of presses and units follow.
 const PLACES: f64 = 0.02;
 const PRESSES: f64 = 0.025;
 const UNITS: f64 = 0.04;
@@ -33,7 +33,7 @@ fn study(text: &str, draws: Draws) -> Budget {
     text.budgets(&evidence, None).expect("values").remove(0)
 }
 
-/// Share of 10,000 presses at new places within the intervals of 100 studies. Presses are on other units if `units` is above 0.
+/// Share of 10,000 presses at new places that are within the intervals of 100 studies. `units` is the deviation between units, N.
 fn share(text: &str, units: f64) -> f64 {
     let mut hits = 0.0;
     for number in 0..100 {

@@ -1,4 +1,4 @@
-//! Annex H of the GUM.
+//! Worked examples of annex H of the GUM.
 
 use taceva_metrology::budget::{Budget, Freedom, Method};
 

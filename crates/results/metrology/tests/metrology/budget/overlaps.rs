@@ -1,8 +1,8 @@
-//! Figures that include others; budgets reject counting an effect twice.
+//! Figures that include other figures. A budget must not count an effect twice.
 
 use taceva_metrology::budget::{Budget, BudgetError, BudgetText, Evidence, Figure, Freedom};
 
-/// Error message for two sources with these figures.
+/// Error message for two sources that use the figures `one` and `other`.
 pub(super) fn figures(one: &str, other: &str) -> String {
     let found = of_figures(one, other);
     found.expect_err("refused").to_string()

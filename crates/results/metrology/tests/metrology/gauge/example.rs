@@ -1,4 +1,4 @@
-//! Readings of the worked example.
+//! Readings of AIAG's worked example.
 
 use serde_json::Value;
 use taceva_metrology::gauge::{GaugeReport, GaugeSettings, GaugeStudy};
@@ -18,7 +18,7 @@ pub(crate) struct Row {
     pub(crate) value: f64,
 }
 
-/// Readings of the worked example, multiplied by `factor`.
+/// Readings of AIAG's worked example, multiplied by `factor`.
 pub(crate) fn readings(factor: f64) -> Vec<Row> {
     let file = file();
     let mut all = Vec::new();

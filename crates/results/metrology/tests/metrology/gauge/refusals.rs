@@ -1,4 +1,4 @@
-//! Studies and settings without a result.
+//! Studies and settings that are rejected.
 
 use taceva_metrology::gauge::{
     Design, Flag, GaugeError, GaugeReport, GaugeSettings, GaugeStudy, Method, NdcReason,
@@ -6,10 +6,10 @@ use taceva_metrology::gauge::{
 
 use super::example::{Row, analyse, readings, settings, study_of};
 
-/// First words of an error message, and the change that causes the error.
+/// Start of an error message, and the change of settings that causes the error.
 type Change = (&'static str, fn(&mut GaugeSettings));
 
-/// Error for the worked example, reduced to the readings with `is_left` true.
+/// Error for the worked example with only the readings for which `is_left` is true.
 fn refusal(is_left: impl Fn(&Row) -> bool) -> GaugeError {
     let kept: Vec<_> = readings(1.0).into_iter().filter(is_left).collect();
     let refused = study_of(&kept).analyse(&settings(|_| {}));

@@ -2,7 +2,7 @@
 
 use taceva_tasks::events::{EventError, EventRule, EventState, Frame};
 
-/// Refusal of two frames by the default rule.
+/// Error for a sequence of two frames, under the default rule.
 fn refusal(frames: [Frame; 2]) -> EventError {
     let refused = EventState::new(EventRule::default()).push("a", &frames);
     refused.expect_err("a bad frame")

@@ -1,4 +1,4 @@
-//! The same laws for poses, depth maps, clouds of points and sequences of frames.
+//! Order, division and merges do not matter for poses, depth maps, clouds of points and sequences of frames.
 
 use proptest::prelude::*;
 use taceva_tasks::depth::{DepthMap, DepthState, DepthTask};
@@ -8,7 +8,7 @@ use taceva_tasks::shape::{ShapeState, ShapeTask};
 
 use super::{Row, State, hold, rows};
 
-/// Depths of a row: scores, the one at `invalid` not a number.
+/// Map of one row with these depths. The pixel at index `invalid` is NaN.
 fn map(depths: [f64; 3], invalid: usize) -> DepthMap {
     let mut mm = depths.to_vec();
     mm[invalid] = f64::NAN;

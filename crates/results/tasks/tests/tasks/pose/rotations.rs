@@ -1,4 +1,4 @@
-//! Rotations, and the angle between two of them.
+//! Rotations, and the angle between two rotations.
 
 use taceva_tasks::pose::Rotation;
 
