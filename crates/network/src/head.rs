@@ -15,12 +15,12 @@ pub(crate) struct Head {
     pub(crate) weights: Aligned,
     /// Bias of each output.
     pub(crate) bias: Aligned,
-    /// Slot of the weights. The bias has the following slot.
+    /// Index (slot) of the weights among the parameter tensors of a network. The bias has the following slot.
     pub(crate) slot: usize,
 }
 
 impl Head {
-    /// Number of slots: one for weights and one for bias.
+    /// Number of parameter tensors (slots): weights and bias.
     pub(crate) const SLOTS: usize = 2;
 
     pub(crate) fn new(pooling: Pooling, picture: Picture, outputs: usize, slot: usize) -> Head {

@@ -13,7 +13,7 @@ use crate::update::Update;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Optimizer {
-    /// Stochastic gradient descent of a weight w with gradient g and velocity v: v ← momentum · v + g + decay · w, w ← w − rate · v.
+    /// Stochastic gradient descent. For weight w, gradient g, velocity v and learning rate r: v ← momentum · v + g + weight_decay · w, w ← w − r · v.
     Sgd {
         /// Factor of the previous velocity, at least 0 and below 1.
         momentum: f64,
@@ -155,7 +155,7 @@ pub struct Adam {
     pub correction: f32,
     /// Addend to the root of the mean squared gradient.
     pub epsilon: f32,
-    /// Step size rate / (1 − β₁ⁿ) at step n.
+    /// Step size at step n: learning rate / (1 − β₁ⁿ).
     pub step: f32,
 }
 

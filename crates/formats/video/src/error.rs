@@ -53,7 +53,7 @@ pub enum VideoError {
     TooLarge {
         /// Path of the clip.
         path: PathBuf,
-        /// Limited quantity.
+        /// Limited quantity with its unit, such as `bytes of a decoded frame`.
         what: &'static str,
         /// Stated size.
         found: u64,
@@ -108,7 +108,7 @@ pub enum VideoError {
         path: PathBuf,
         /// Codec, with the unsupported profile or pixel format.
         codec: String,
-        /// Remedy.
+        /// Remedy for the user, such as the installation of ffmpeg.
         remedy: String,
     },
     /// The clip has no luma plane.
@@ -140,7 +140,7 @@ pub enum VideoError {
         path: PathBuf,
         /// Name of the decoder library or program.
         decoder: &'static str,
-        /// First missing frame, from 0 in presentation order.
+        /// Index of the first frame that the decoder did not return, from 0 in presentation order.
         frame: u64,
         /// Message of the decoder.
         problem: String,

@@ -40,7 +40,7 @@ pub(crate) struct H264Clip {
 /// Reason why a frame was not decoded.
 pub(crate) enum Refusal {
     Video(VideoError),
-    /// Tool of the codec that the decoder does not support. The text is appended to the name of the codec.
+    /// Feature of the codec that the decoder does not support. The text is appended to the name of the codec.
     Tool(String),
 }
 

@@ -53,7 +53,7 @@ pub(super) enum Finish<'a> {
 }
 
 impl SumRule<'_> {
-    /// Rule of a part whose first channel is `channel`, with the start values of the part, and no operation on finished sums.
+    /// Rule for the part of the output whose first channel is `channel`. Keeps the start values of this part, and leaves finished sums unchanged.
     pub(super) fn of_part(self, channel: usize) -> Self {
         let start = match self.start {
             Start::Bias(bias) => Start::Bias(&bias[channel..]),

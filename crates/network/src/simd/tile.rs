@@ -1,4 +1,4 @@
-//! The two innermost loops, which take nearly all of the run time. Both loops compute tiles of sums in registers.
+//! The two innermost loops of convolutions, which take nearly all of the run time. Both loops compute tiles of sums in registers.
 
 #![expect(unsafe_code, reason = "loads and stores without bounds checks")]
 

@@ -24,7 +24,7 @@ const UNFINISHED: &str = "Draft: author or licence is missing.";
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Manifest {
-    /// [`BUNDLE_SCHEMA`].
+    /// Schema of the manifest, [`BUNDLE_SCHEMA`].
     pub schema: String,
     /// Name of the bundle for readers.
     pub name: String,

@@ -27,7 +27,7 @@ pub(crate) struct Stop {
 #[derive(Clone, Debug)]
 pub(crate) struct TableScores {
     pub(crate) scores: Vec<Score>,
-    /// True if the sums differ from the sums of the state, although they must be equal.
+    /// True if the sums of the tables differ from the sums of the state, although they must be equal.
     pub(crate) has_other_sums: bool,
     /// Metrics that cannot be computed from the tables.
     pub(crate) left_out: Vec<Skip>,

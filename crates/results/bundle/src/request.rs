@@ -70,7 +70,7 @@ impl ScoredTables {
 }
 
 impl BundleRequest {
-    /// A draft of the results at `result`, made on the day `created`, on one thread.
+    /// Request for a draft bundle of the results at `result`, made on the day `created`, on one thread.
     pub fn new(result: &Path, created: &str) -> BundleRequest {
         BundleRequest {
             result: result.to_owned(),

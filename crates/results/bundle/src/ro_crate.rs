@@ -7,11 +7,11 @@ use crate::claim::properties;
 use crate::layout::{CRATE, RESULTS};
 use crate::manifest::{BundledFile, Manifest, StudyFiles, licence_address};
 
-/// Profile of a run of programs.
+/// Identifier of the profile of a run of programs.
 const PROFILE: &str = "https://w3id.org/ro/wfrun/process/0.5";
 /// Address of the repository of the program.
 const PROGRAM: &str = env!("CARGO_PKG_REPOSITORY");
-/// The run that computed the claims again.
+/// Identifier of the run that computed the claims again.
 const RUN: &str = "#recomputation";
 
 /// Text of `ro-crate-metadata.json` of a bundle.

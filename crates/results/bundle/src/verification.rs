@@ -13,7 +13,7 @@ pub const VERIFICATION_SCHEMA: &str = "taceva.verification/1";
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Verification {
-    /// [`VERIFICATION_SCHEMA`].
+    /// Schema of the verification, [`VERIFICATION_SCHEMA`].
     pub schema: &'static str,
     /// The bundle; `None` if its manifest cannot be read.
     pub bundle: Option<BundleFacts>,

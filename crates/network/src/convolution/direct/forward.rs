@@ -23,7 +23,7 @@ const PIXELS_AT_ONCE: usize = 384;
 /// Minimum number of pictures for which the border is skipped, equal to the number of rows in a tile of sums.
 const IMAGES_WORTH_CLASSES: usize = 6;
 
-/// Maximum number of pixels of a tile of sums.
+/// Maximum number of pixels of a tile of sums: the sums that the inner loop keeps in registers.
 pub(super) const ROWS: usize = 6;
 
 /// Forward pass, prepared for pictures of one memory layout.

@@ -9,7 +9,7 @@ use crate::machine::Machine;
 use crate::panel::PANEL;
 use crate::simd::{Job, Pixels, Tile, Vector};
 
-/// Number of tiles per piece.
+/// Number of tiles of a piece, which is transformed as a whole.
 pub(super) const PIECE: usize = 16;
 
 /// Number of channel panels per task, the greatest number that the widest machine sums at once.

@@ -19,7 +19,7 @@ use crate::manifest::Manifest;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Addition {
-    /// Entries that got rows, as paths in the catalogue.
+    /// Entries that received rows, as paths in the catalogue.
     pub entries: Vec<String>,
     /// Digest of the bundle's manifest.
     pub bundle: String,

@@ -68,7 +68,7 @@ pub(super) fn entry_path(slug: &str) -> String {
     format!("{ENTRIES}/{slug}{TOML}")
 }
 
-/// Rejects a folder without entries and bundles.
+/// Rejects a folder that has neither a folder of entries nor a folder of bundles.
 pub(super) fn check_catalogue_folder(root: &Path) -> Result<(), CatalogueFolderError> {
     fs::metadata(root).map_err(CatalogueFolderError::file(root))?;
     if !root.join(ENTRIES).is_dir() && !root.join(BUNDLES).is_dir() {

@@ -145,7 +145,7 @@ fn with_cell(table: &[u8], draws: &mut Draws) -> Vec<u8> {
     lines.join("\n").into_bytes()
 }
 
-/// Spoils one file of the bundle in the folder, and states its size and digest so that it is read.
+/// Spoils one file of the bundle in the folder. Updates its size and digest in the manifest, so that the file is read.
 fn spoil_file(bench: &Bench, whole: &BTreeMap<PathBuf, Vec<u8>>, draws: &mut Draws) {
     for (path, bytes) in whole {
         fs::write(path, bytes).expect("room");
