@@ -83,7 +83,7 @@ pub enum VideoError {
         path: PathBuf,
         /// Index of the frame that is out of order.
         index: u64,
-        /// Index of the frame requested before.
+        /// Index of the frame that was requested before this frame.
         after: u64,
     },
     /// The size of a frame differs from the size of the first frame.

@@ -8,12 +8,12 @@ use std::time::Duration;
 
 /// Time without output after which a decoder program is killed.
 pub(crate) const SILENCE: Duration = Duration::from_secs(60);
-/// Maximum length of a line, bytes. Longer lines are split.
+/// Maximum length of a line of output, bytes. Longer lines are split.
 const LINE_BYTES: u64 = 1 << 16;
-/// Number of queued pieces, which limits the memory.
+/// Maximum number of queued pieces of output, which limits the memory.
 const WAITING: usize = 4;
 
-/// Piece of output.
+/// Piece of the output of a decoder program.
 #[derive(Debug)]
 pub(crate) enum Piece {
     /// Line of standard error, without its end.

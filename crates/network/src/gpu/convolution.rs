@@ -127,7 +127,7 @@ impl<B: Products> Convolution<B> {
         together(parts, 1).reshape([samples, height, width, channels])
     }
 
-    /// Windows of `pictures`, in tensors of at most `most` values.
+    /// Windows of `pictures`, in tensors of at most `most` values, or of one picture.
     fn parts(&self, pictures: Tensor<B, 4>, way: Way) -> impl Iterator<Item = Tensor<B, 3>> {
         split(pictures, self.at_once(way)).map(move |pictures| {
             let [samples, height, width, channels] = pictures.dims();

@@ -79,7 +79,7 @@ impl Recomputation {
         }
     }
 
-    /// Scores of the study with these files and this report.
+    /// Computes the scores of the study with these files and this report again.
     pub(crate) fn of(
         source: &Source,
         files: &StudyFiles,
@@ -237,7 +237,7 @@ fn samples(source: &Source, name: &str) -> Result<Samples, Stop> {
     Samples::read(&text).map_err(Stop::failed)
 }
 
-/// Table of samples in `files`, compared with the predictions of the model on one of `datasets`.
+/// Compares the table of samples in `files` with the predictions of the model on one of `datasets`.
 fn of_model(
     source: &Source,
     files: &StudyFiles,

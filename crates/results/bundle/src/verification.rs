@@ -205,7 +205,7 @@ impl Verification {
         }
     }
 
-    /// Adds a level.
+    /// Adds `level`, which counts as reached if there is no `reason`.
     pub(crate) fn add_level(&mut self, level: Level, reason: Option<String>) {
         self.levels.push(LevelCheck {
             level,

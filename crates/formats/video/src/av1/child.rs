@@ -24,7 +24,7 @@ pub enum ServeError {
 /// Decodes AV1 for a parent that writes to `input` and reads from `output`, until the parent closes `input`.
 ///
 /// Confines the whole process permanently before it decodes the first byte of a clip. On Linux the process can then open no file or connection and
-/// start no process. Memory is limited to frames of the size that the parent states. The confinement needs seccomp filters, on x86-64 or a 64-bit ARM.
+/// start no process. Memory is limited to frames of the size that the parent states. The confinement needs seccomp filters on x86-64 or 64-bit ARM.
 /// On other systems the process keeps its rights. Call this function last in a separate command.
 ///
 /// # Errors

@@ -6,7 +6,7 @@ use super::bits::Bits;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Sequence {
     profile: u32,
-    /// Chroma format: 0 gray, 1 4:2:0, 2 4:2:2, 3 4:4:4.
+    /// Chroma format: 0 for gray, 1 for 4:2:0, 2 for 4:2:2, 3 for 4:4:4.
     chroma: u32,
     luma_bits: u32,
     chroma_bits: u32,

@@ -15,7 +15,7 @@ pub(crate) struct Settings {
     pub(super) sequence: Option<Sequence>,
 }
 
-/// Kind of a unit.
+/// Kind of a unit of an H.264 stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum UnitKind {
     /// Part of a picture.

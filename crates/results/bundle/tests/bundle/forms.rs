@@ -40,7 +40,7 @@ fn finished(request: &mut BundleRequest) {
     request.name = Some(NAME.to_owned());
 }
 
-/// Entity of the crate with this identifier.
+/// Entity of the RO-Crate with the identifier `id`.
 fn entity(bench: &Bench, id: &str) -> Value {
     let metadata = bench.json("ro-crate-metadata.json");
     let graph = metadata["@graph"].as_array().expect("entities");
