@@ -7,7 +7,7 @@ use crate::planes::{Layout, Planes};
 use crate::update::Update;
 use taceva_core::single;
 
-/// Linear outputs of the pooled features.
+/// Linear output layer, which reads the pooled features.
 #[derive(Clone, Debug)]
 pub(crate) struct Head {
     pub(crate) pooling: Pooling,

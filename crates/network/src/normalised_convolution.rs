@@ -171,7 +171,7 @@ impl Normed {
         update.update(self.slot, self.weights.values_mut(), room);
     }
 
-    /// Weights multiplied by the running moments' factors, and the resulting bias.
+    /// Folds the running moments into the convolution. Returns the scaled weights and the bias.
     pub(crate) fn fold(&self) -> (ConvolutionWeights, Aligned) {
         let mut weights = self.weights.clone();
         let channels = self.convolution().outputs;

@@ -51,10 +51,10 @@ impl Optimizer {
     }
 }
 
-/// State of an optimiser, for each parameter by slot.
+/// State of an optimiser.
 #[derive(Clone, Debug)]
 pub(crate) struct Memory {
-    /// Velocity, or means of gradient and squared gradient. Empty before the first update of a parameter.
+    /// Velocity, or means of gradient and squared gradient, of each parameter by slot. Empty before the first update of a parameter.
     pub(crate) moments: Vec<Vec<Aligned>>,
 }
 

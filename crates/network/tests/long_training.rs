@@ -1,4 +1,4 @@
-//! Trainings of a thousand epochs. For any pictures, every number stays finite and errors do not grow.
+//! Tests with trainings of a thousand epochs. For any pictures, every number stays finite and errors do not grow.
 
 use crate::common::plain::{self, Moments};
 use crate::common::tiles::{picture, same_size};

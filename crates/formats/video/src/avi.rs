@@ -99,7 +99,7 @@ impl Avi {
     }
 }
 
-/// State while the chunks are read.
+/// State of reading the chunks of an AVI file.
 struct Walk<'a> {
     source: &'a Source,
     stream: Option<StreamHeader>,

@@ -122,7 +122,7 @@ impl H264Clip {
         gop::visit(&mut session, &self.source, &self.presented, sorted, each)
     }
 
-    /// Checks a sequence parameter set within the stream against the first one.
+    /// Checks that a sequence parameter set within the stream agrees with the first set.
     fn check_sequence(&self, unit: &[u8], offset: u64, frame: u64) -> Result<(), Refusal> {
         let Some(sequence) = Sequence::read(unit) else {
             return Err(self

@@ -15,7 +15,7 @@ pub(crate) struct Course {
     pub(crate) losses: Vec<f64>,
     /// R² of each held-out label.
     pub(crate) scores: [f64; LABELS.len()],
-    /// Wall-clock time, including the load of other programs.
+    /// Wall-clock time of the training, s, which other programs can lengthen.
     pub(crate) seconds: f64,
 }
 

@@ -6,7 +6,7 @@ use crate::panel::PANEL;
 /// Minimum number of products in a part, which is about ten microseconds of work.
 const PRODUCTS_WORTH_A_PART: usize = 1 << 18;
 
-/// Time to read a row of weights from the second- or third-level cache, as the number of pixels multiplied in the same time.
+/// Time to read a row of weights from the second- or third-level cache. The unit is the time to multiply one pixel with this row.
 const PIXELS_OF_A_READ: usize = 8;
 
 /// Division of the outputs of one picture.

@@ -65,7 +65,7 @@ impl SumRule<'_> {
 }
 
 impl<'a> Epilogue<'a> {
-    /// Rule for the output values in `range`.
+    /// Start values of sums and operation on finished sums, for the output values in `range`.
     pub(super) fn within(self, range: Range<usize>) -> SumRule<'a> {
         let (start, finish) = match self {
             Epilogue::Raw => (Start::Zero, Finish::Keep),

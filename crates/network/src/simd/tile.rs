@@ -168,7 +168,8 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         self
     }
 
-    /// Adds, for each pixel, the products of a run of `length` input values with as many rows of `weights`. Panels of weights are `stride` values apart.
+    /// Adds to the sums of each pixel the products of `length` consecutive input values with `length` rows of `weights`. Panels of weights are
+    /// `stride` values apart.
     ///
     /// # Panics
     /// If a run exceeds `input`, or the rows exceed `weights`.

@@ -59,7 +59,7 @@ pub(crate) fn of_folder(manifest: &Manifest, description: &str, licences: &[Stri
     own.text(Vec::new(), after)
 }
 
-/// Entities of every crate.
+/// Entities that every RO-Crate of a bundle or catalogue contains.
 struct Entities {
     root: Value,
     /// Licences and the organization, which the root names.
@@ -104,7 +104,7 @@ impl Entities {
         }
     }
 
-    /// The crate with entities before and after its root.
+    /// Text of the RO-Crate, with entities before and after its root.
     fn text(self, before: Vec<Value>, after: Vec<Value>) -> String {
         let mut graph = vec![json!({
             "@id": CRATE,

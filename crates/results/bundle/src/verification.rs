@@ -74,16 +74,16 @@ pub struct LevelCheck {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub enum Verdict {
-    /// Equal, bit for bit.
+    /// The recomputed number equals the claim, bit for bit.
     #[serde(rename = "equal")]
     Equal,
-    /// Different, but within the tolerance.
+    /// The recomputed number differs from the claim, but within the tolerance.
     #[serde(rename = "within")]
     Within,
-    /// Different by more than the tolerance.
+    /// The recomputed number differs from the claim by more than the tolerance.
     #[serde(rename = "differs")]
     Differs,
-    /// Not computed again, for a reason.
+    /// The number of the claim was not computed again.
     #[serde(rename = "not recomputable")]
     NotRecomputable,
 }
@@ -145,9 +145,9 @@ pub struct OtherCheck {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct Summary {
-    /// Number of equal claims, bit for bit.
+    /// Number of claims that are equal, bit for bit.
     pub equal: u64,
-    /// Number of different claims within the tolerance.
+    /// Number of claims that differ, but within the tolerance.
     pub within: u64,
     /// Number of claims that differ by more than the tolerance.
     pub differs: u64,

@@ -7,7 +7,7 @@ use std::io::{self, Read, Write};
 #[cfg(feature = "av1")]
 use crate::limits;
 
-/// First bytes of the protocol. The last byte is the version.
+/// First bytes that the parent sends. The last byte is the version of the protocol.
 const LETTERS: [u8; 8] = *b"tacAV1\x00\x01";
 
 /// First message of the parent: the size that all frames have.

@@ -66,8 +66,8 @@ impl Forward {
         }
     }
 
-    /// Classes to compute for `images` pictures. Each class reads the weights again, which is efficient for a sufficient number of pixels. Only zeros are
-    /// skipped, so outputs do not depend on this choice.
+    /// Classes to compute for `images` pictures: one class of all pixels, or one class per pixel for many tiny pictures. Each class reads the weights
+    /// again, so it needs many pixels. Only zeros are skipped, so outputs do not depend on this choice.
     fn classes(&self, images: usize) -> &[Class] {
         if self.apart.is_empty() || images < IMAGES_WORTH_CLASSES {
             std::slice::from_ref(&self.whole)

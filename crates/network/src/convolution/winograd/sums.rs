@@ -1,4 +1,4 @@
-//! Sums over tiles at each point. One task computes the sums of one point and a few panels, tile after tile.
+//! Sums over tiles at each point of Winograd's algorithm. One task computes the sums of one point and a few panels, tile after tile.
 
 use rayon::prelude::*;
 
@@ -75,7 +75,7 @@ fn pixels(tiles: usize, [read, written]: [usize; 2]) -> Pixels {
     Pixels::new(places.collect())
 }
 
-/// Sums of one point and some panels.
+/// Task that computes the sums of one point and some panels.
 struct Sums<'a> {
     pieces: &'a Pieces<'a>,
     point: usize,

@@ -23,11 +23,11 @@ pub struct Addition {
     pub entries: Vec<String>,
     /// Digest of the bundle's manifest.
     pub bundle: String,
-    /// Number of rows in `[[measured]]`.
+    /// Number of rows of the bundle in tables `[[measured]]`.
     pub measured: u64,
-    /// Number of rows in `[[unknown]]`.
+    /// Number of rows of the bundle in tables `[[unknown]]`.
     pub unknown: u64,
-    /// Number of rows in `[[simulated]]`.
+    /// Number of rows of the bundle in tables `[[simulated]]`.
     pub simulated: u64,
     /// Lowest verification level of the rows.
     pub level: String,
