@@ -18,7 +18,7 @@ pub(crate) struct Convolution<B: Backend> {
     inputs: usize,
     outputs: usize,
     kernel: usize,
-    /// Maximum number of values of a tensor of windows, the gathered pixels of outputs.
+    /// Maximum number of values of a tensor of gathered pixels.
     most: usize,
 }
 

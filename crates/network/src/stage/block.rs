@@ -31,7 +31,7 @@ pub(crate) struct BlockSpace {
 }
 
 impl Block {
-    /// Block with the first convolution `first`.
+    /// Block whose first convolution is `first`. The slots (indices) of its parameter tensors begin at `slot`.
     pub(super) fn new(first: Convolution, slot: usize) -> Block {
         let Convolution {
             inputs,

@@ -45,7 +45,7 @@ const BESIDE: [&str; 20] = [
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct SampleDigest {
     pub(crate) schema: String,
-    /// Digest of all studies.
+    /// Digest over the samples of all studies.
     pub(crate) digest: String,
     pub(crate) studies: Vec<StudySamples>,
 }

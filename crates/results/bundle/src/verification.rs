@@ -111,10 +111,10 @@ pub struct ClaimCheck {
     pub channel: String,
     /// Variant of the metric; `None` for the metric itself.
     pub variant: Option<String>,
-    /// Number in the manifest.
+    /// Value of the claim in the manifest.
     #[serde(rename = "printed")]
     pub stated: f64,
-    /// Number that was computed again; `None` if no number was computed.
+    /// Value that was computed again; `None` if no value was computed.
     pub recomputed: Option<f64>,
     /// Deepest level that the claim reached.
     pub level: Level,

@@ -47,12 +47,12 @@ pub(super) fn entry_files(root: &Path) -> Result<Vec<EntryFile>, CatalogueFolder
     Ok(entries)
 }
 
-/// Texts of the entries, by name.
+/// Texts of the entries, sorted by file name.
 pub(super) fn entry_texts(root: &Path) -> Result<Vec<TextFile>, CatalogueFolderError> {
     texts(root, ENTRIES, TOML, MOST_TEXT)
 }
 
-/// Texts of the manifests, by name.
+/// Texts of the manifests, sorted by file name.
 pub(super) fn manifest_texts(root: &Path) -> Result<Vec<TextFile>, CatalogueFolderError> {
     texts(root, BUNDLES, JSON, MOST_MANIFEST)
 }

@@ -26,7 +26,7 @@ const INDEX: &str = "index.json";
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct CatalogueCheck {
-    /// Faults, by file.
+    /// Faults of the files of the catalogue.
     pub findings: Vec<CatalogueFinding>,
     /// Number of entries.
     pub entries: u64,
