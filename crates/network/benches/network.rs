@@ -1,14 +1,15 @@
-//! Images per second of training steps and of predictions: ResNet-18, six outputs, batches of 32 or single pictures, for each form of convolution.
+//! Images per second of training steps and of predictions, for each algorithm of the convolutions (form). The network is ResNet-18 with six outputs.
+//! Training uses batches of 32 pictures; predictions use batches or single pictures.
 //!
 //! `cargo bench -p taceva-network [-- SIDE [THREADS [REPEATS]]] [winograd | mixed | direct] [single | training]`. Without arguments it measures
 //! pictures of 64² and 112² on one and two threads, in every form. `single` measures only predictions of single pictures, `training` only training
 //! steps, for a profiler. It prints the best of REPEATS, by processor time of all threads and by the wall clock. For single pictures it also prints
-//! the median of 4 · REPEATS, because they are so short that other programs disturb few of them. On Linux it also prints the peak memory of the
-//! training beyond the memory of the process before. It prints this for the first size and form only, because the peak belongs to the whole process.
-//! `benches/peers/torch_network.py` measures PyTorch alike.
+//! the median of 4 · REPEATS, because they are so short that other programs disturb few of them. On Linux it also prints how much memory
+//! the training adds at its peak. It prints this for the first size and form only, because the peak belongs to the whole process.
+//! `benches/peers/torch_network.py` makes the same measurements with PyTorch.
 //!
-//! `cargo bench -p taceva-network -- slip [REPEATS]` measures training steps of the model `cnn` on windows of frames, on one thread;
-//! `benches/models/slip_windows.py` measures PyTorch in turn.
+//! `cargo bench -p taceva-network -- slip [REPEATS]` measures training steps of the model `cnn` on sequences of frames, on one thread.
+//! `benches/models/slip_windows.py` alternates these measurements with PyTorch.
 
 #![expect(
     clippy::print_stdout,
@@ -103,7 +104,7 @@ fn pictures(input: Picture, count: usize) -> Vec<f32> {
         .collect()
 }
 
-/// Form, rows of a picture, and threads.
+/// Measured case: form of the convolutions, number of rows of a picture, and number of threads.
 type What = (ConvolutionForm, usize, usize);
 
 fn measure_training(what: What, repeats: usize, before: Option<f64>) -> Network {
@@ -151,7 +152,7 @@ fn measure_training(what: What, repeats: usize, before: Option<f64>) -> Network 
     trainer.finish().expect("at hand").network
 }
 
-/// Measures training steps of `cnn` for slip: two classes, windows of five grey frames with the four changes between them.
+/// Measures training steps of `cnn` for slip: two classes, and inputs of five consecutive grey frames with the four changes between them.
 fn measure_slip(repeats: usize) {
     let input = Picture {
         height: 96,
@@ -218,7 +219,7 @@ fn best(repeats: usize, work: impl FnMut()) -> [f64; 2] {
     times(repeats, work).map(|times| times[0])
 }
 
-/// Processor times and wall times of each `work`, in seconds, after one warm-up, in ascending order.
+/// Processor times and wall times of `repeats` calls of `work`, in seconds, each in ascending order. One call for warm-up precedes them.
 fn times(repeats: usize, mut work: impl FnMut()) -> [Vec<f64>; 2] {
     work();
     let mut times = [Vec::new(), Vec::new()];

@@ -1,4 +1,4 @@
-//! Compares trainings with different forms of convolutions. A network trains from the same seeds in both forms on pictures of a blob, whose
+//! Compares trainings with two algorithms (forms) of convolutions. A network trains from the same seeds in both forms on pictures of a blob, whose
 //! position and size are the labels. Losses and held-out scores are printed beside their spread over seeds.
 //!
 //! `cargo run --release -p taceva-network --example forms [-- NETWORK [SEEDS [STEPS [SIDE [THREADS]]]]]`; defaults: `resnet18`, 5, 200, 32 and 1.

@@ -1,8 +1,8 @@
 //! Cost of dividing work between two threads of a pool: microseconds from the request until both empty halves are done.
 //!
-//! `cargo run --release -p taceva-network --example waking [-- REPEATS]`. Each row has the median and the ninth decile. Processor time is the sum
-//! over threads, without the pause. The other thread polls for work before it sleeps, so the cost depends on the pause since its last work. In a
-//! network, this pause is the difference in time between both halves of a layer.
+//! `cargo run --release -p taceva-network --example waking [-- REPEATS]`. The other thread polls for work before it
+//! sleeps, so the cost depends on the pause since its last work. In a network, this pause is the difference in time between both halves of a layer.
+//! Each row has one pause, the median and ninth decile of the cost, and the processor time of all threads without the pause.
 
 #![expect(
     clippy::print_stdout,

@@ -204,7 +204,7 @@ impl Architecture {
         Ok(())
     }
 
-    /// Plans of the stages, in order.
+    /// Plans of the network's stages, in order.
     pub fn stages(&self) -> Vec<StagePlan> {
         match &self.body {
             Body::Plain { layers, .. } => layers.iter().copied().map(StagePlan::Plain).collect(),

@@ -44,7 +44,7 @@ pub enum NetworkError {
         /// Index of the value.
         position: usize,
     },
-    /// The number of values is not a multiple of the picture size.
+    /// The number of picture values is not a multiple of the picture size.
     #[error("{values} numbers, expected whole pictures of {expected}")]
     Pictures {
         /// Number of values found.

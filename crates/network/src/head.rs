@@ -7,7 +7,7 @@ use crate::planes::{Layout, Planes};
 use crate::update::Update;
 use taceva_core::single;
 
-/// Linear outputs of the pooled features.
+/// Linear output layer, which reads the pooled features.
 #[derive(Clone, Debug)]
 pub(crate) struct Head {
     pub(crate) pooling: Pooling,
@@ -15,12 +15,12 @@ pub(crate) struct Head {
     pub(crate) weights: Aligned,
     /// Bias of each output.
     pub(crate) bias: Aligned,
-    /// Slot of the weights. The bias has the following slot.
+    /// Index (slot) of the weights among the parameter tensors of a network. The bias has the following slot.
     pub(crate) slot: usize,
 }
 
 impl Head {
-    /// Number of slots: one for weights and one for bias.
+    /// Number of parameter tensors (slots): weights and bias.
     pub(crate) const SLOTS: usize = 2;
 
     pub(crate) fn new(pooling: Pooling, picture: Picture, outputs: usize, slot: usize) -> Head {

@@ -10,7 +10,7 @@ use crate::labels::Labels;
 pub enum Loss {
     /// Squared error: (output − label)².
     SquaredError,
-    /// Huber's loss: half the squared distance up to `delta`; beyond `delta`, delta · (|distance| − delta / 2).
+    /// Huber's loss of the difference d = output − label: d² / 2 for |d| up to `delta`, otherwise delta · (|d| − delta / 2).
     ///
     /// # Reference
     /// P. J. Huber, "Robust estimation of a location parameter", Ann. Math. Statist. 35, 1964.
@@ -26,9 +26,9 @@ impl Loss {
     /// Computes the loss of some samples, and writes the gradient of the loss.
     ///
     /// # Shapes
-    /// `outputs`, `gradient`: `[samples, width]`.
+    /// `outputs`, `gradient`: `[samples, width]`, with `width` outputs per sample.
     /// # Panics
-    /// If a distance loss is applied to classes, or cross entropy is applied to numbers. [`Trainer`](crate::Trainer) rejects both cases.
+    /// If cross entropy is applied to numbers, or another loss to classes. [`Trainer`](crate::Trainer) rejects both cases.
     pub fn measure(
         self,
         outputs: &[f64],
@@ -74,7 +74,7 @@ impl Loss {
 /// Mean cross entropy of the softmax of `outputs`, and its gradient. Each sample has the weight of its class, or weight 1 if `weights` is empty.
 ///
 /// # Shapes
-/// `outputs`, `gradient`: `[samples, width]`; `weights`: `[width]`, or empty.
+/// `outputs`, `gradient`: `[samples, width]`, with `width` outputs per sample; `weights`: `[width]`, or empty.
 pub(crate) fn cross_entropy(
     outputs: &[f64],
     width: usize,

@@ -10,9 +10,9 @@ pub(crate) use greatest::pool;
 
 use crate::picture::Picture;
 
-/// Side of a window, in pixels.
+/// Side of a pooling window, in pixels.
 const KERNEL: usize = 3;
-/// Stride, in pixels.
+/// Distance between pooling windows, in pixels.
 const STRIDE: usize = 2;
 /// Number of rows and columns of the first window that are outside the picture.
 const PADDING: usize = 1;

@@ -19,7 +19,7 @@ use taceva_core::single;
 pub(crate) struct Normed {
     pub(crate) weights: ConvolutionWeights,
     pub(crate) norm: BatchNorm,
-    /// Slot of the weights. Gain and bias have the following two slots.
+    /// Index (slot) of the weights among the parameter tensors of a network. Gain and bias have the following two slots.
     pub(crate) slot: usize,
 }
 
@@ -48,7 +48,7 @@ pub(crate) struct NormedSpace {
 }
 
 impl Normed {
-    /// Number of slots: one each for weights, gain and bias.
+    /// Number of parameter tensors (slots): weights, gain and bias.
     pub(crate) const SLOTS: usize = 3;
 
     pub(crate) fn new(convolution: Convolution, slot: usize) -> Normed {
@@ -171,7 +171,7 @@ impl Normed {
         update.update(self.slot, self.weights.values_mut(), room);
     }
 
-    /// Weights multiplied by the running moments' factors, and the resulting bias.
+    /// Folds the running moments into the convolution. Returns the scaled weights and the bias.
     pub(crate) fn fold(&self) -> (ConvolutionWeights, Aligned) {
         let mut weights = self.weights.clone();
         let channels = self.convolution().outputs;

@@ -13,7 +13,7 @@ use crate::update::Update;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Optimizer {
-    /// Stochastic gradient descent of a weight w with gradient g and velocity v: v ← momentum · v + g + decay · w, w ← w − rate · v.
+    /// Stochastic gradient descent. For weight w, gradient g, velocity v and learning rate r: v ← momentum · v + g + weight_decay · w, w ← w − r · v.
     Sgd {
         /// Factor of the previous velocity, at least 0 and below 1.
         momentum: f64,
@@ -51,10 +51,10 @@ impl Optimizer {
     }
 }
 
-/// State of an optimiser, for each parameter by slot.
+/// State of an optimiser.
 #[derive(Clone, Debug)]
 pub(crate) struct Memory {
-    /// Velocity, or means of gradient and squared gradient. Empty before the first update of a parameter.
+    /// Velocity, or means of gradient and squared gradient, of each parameter by slot. Empty before the first update of a parameter.
     pub(crate) moments: Vec<Vec<Aligned>>,
 }
 
@@ -155,7 +155,7 @@ pub struct Adam {
     pub correction: f32,
     /// Addend to the root of the mean squared gradient.
     pub epsilon: f32,
-    /// Step size rate / (1 − β₁ⁿ) at step n.
+    /// Step size at step n: learning rate / (1 − β₁ⁿ).
     pub step: f32,
 }
 

@@ -36,7 +36,7 @@ impl Aligned {
         Ok(Aligned::within(values, length))
     }
 
-    /// Uses `length` values of `values`, starting at the first cache line. `values` must be longer than `length` by a panel.
+    /// Uses `length` values of `values`, starting at the first cache line. `values` must have at least `PANEL` more values than `length`.
     fn within(values: Vec<f32>, length: usize) -> Aligned {
         const LINE: usize = 64;
         let skipped = values.as_ptr().align_offset(LINE).min(PANEL);

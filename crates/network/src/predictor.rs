@@ -118,7 +118,7 @@ impl Predictor {
         Ok(())
     }
 
-    /// True if there are fewer pictures than threads, and one picture is enough work to wake threads.
+    /// True if each picture is divided among threads. This needs fewer pictures than threads, and enough work in a picture to wake threads.
     fn is_divided(&self, pictures: usize) -> bool {
         let products: usize = self.stages.iter().map(Folded::products).sum();
         team::parts(pictures) > 1 && products >= PRODUCTS_WORTH_WAKING

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub enum Schedule {
     /// Constant rate.
     Constant,
-    /// From the full rate to zero along half a cosine.
+    /// Rate that falls from the full rate to zero along half a cosine.
     Cosine,
     /// Rate multiplied by `factor` after every `every` steps.
     Step {
@@ -17,8 +17,8 @@ pub enum Schedule {
         /// Factor of each change.
         factor: f64,
     },
-    /// Rises from 1/25 of the full rate along half a cosine for the share `rise` of all steps. Then falls to 1/10,000 of the start rate over the remaining
-    /// steps.
+    /// Rate that rises from 1/25 of the full rate along half a cosine for the share `rise` of all steps. Then the rate falls to 1/10,000 of its start
+    /// value over the remaining steps.
     ///
     /// # Reference
     /// L. N. Smith, N. Topin, "Super-convergence", 2019. Limits and shape follow PyTorch's `OneCycleLR`.

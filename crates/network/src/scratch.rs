@@ -9,7 +9,7 @@ use crate::planes::{Layout, Planes};
 #[derive(Debug)]
 pub(crate) struct Scratch {
     spare: Vec<Aligned>,
-    /// Buffer for the weights of one convolution: first the exchanged weights, then the weight gradient.
+    /// Buffer for one convolution: first the weights with inputs and outputs exchanged, then the weight gradient.
     pub(crate) weights: Aligned,
     /// Buffer for transformed weights.
     pub(crate) transformed: Aligned,

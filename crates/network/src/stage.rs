@@ -46,7 +46,7 @@ pub(crate) struct Standing {
 }
 
 impl Stage {
-    /// Stage for `plan` with `inputs` input channels. The first slot of the stage is `slot`.
+    /// Stage for `plan` with `inputs` input channels. The slots (indices) of its parameter tensors begin at `slot`.
     pub(crate) fn new(plan: StagePlan, inputs: usize, slot: usize) -> Stage {
         let first = plan.first(inputs);
         match plan {

@@ -18,7 +18,7 @@ const PATIENCE: u32 = 3000;
 /// Number of failed searches after which a thread yields the processor to other programs.
 const LOOKS: u32 = 64;
 
-/// Number of parts per picture with which every thread has work.
+/// Number of parts into which each of `images` pictures is divided, so that every thread has work.
 pub(crate) fn parts(images: usize) -> usize {
     let threads = rayon::current_num_threads().min(MOST);
     if (1..threads).contains(&images) {

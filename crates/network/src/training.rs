@@ -49,7 +49,7 @@ pub struct Trainer<'a> {
     form: ConvolutionForm,
 }
 
-/// Purposes of random numbers.
+/// Purposes of random numbers: order of the samples, and augmentation of the pictures.
 const ORDER: u64 = 1;
 const AUGMENTATION: u64 = 2;
 
@@ -171,7 +171,7 @@ impl<'a> Trainer<'a> {
         &self.state
     }
 
-    /// Number of steps per epoch, which is the number of whole batches. Each epoch skips different samples.
+    /// Number of steps per epoch, which is the number of whole batches. The samples that fill no batch differ between epochs.
     pub fn steps_per_epoch(&self) -> u64 {
         (self.training.count(&self.architecture) / self.recipe.batch) as u64
     }

@@ -1,4 +1,4 @@
-//! Helpers shared by several suites: a plain network in double precision, a small training, convolutions by size.
+//! Helpers shared by several suites: a plain network in double precision, a small training, networks of 3 × 3 convolutions.
 
 pub(crate) mod plain;
 pub(crate) mod small;

@@ -1,4 +1,4 @@
-//! Moves a training from one engine to another.
+//! Tests that move a training from one engine to another.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

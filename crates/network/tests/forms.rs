@@ -1,5 +1,5 @@
-//! Forms of convolutions. Predictions do not depend on other pictures of the batch, all forms agree, and training in one form keeps the
-//! promises of trainings.
+//! Tests of the convolution algorithms (forms). Predictions do not depend on other pictures of the batch, all forms agree, and a resumed
+//! training in any form ends with the same bits.
 
 use crate::common::plain::{self, Moments};
 use crate::common::tiles::{self, picture};

@@ -1,4 +1,4 @@
-//! `TACEVA_ISA` and the number of threads change no bit of a training or prediction, if the instruction set has fused multiply-add.
+//! Tests that `TACEVA_ISA` and the number of threads change no bit of a training or prediction, if the instruction set has fused multiply-add.
 
 use std::process::Command;
 

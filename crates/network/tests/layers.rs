@@ -86,7 +86,7 @@ fn predictions_are_those_of_a_plain_network() {
     }
 }
 
-/// A loss in double precision of a plain network.
+/// Loss of a plain network, in double precision.
 fn plain_loss(
     architecture: &Architecture,
     tensors: &Tensors,

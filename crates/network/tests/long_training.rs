@@ -1,4 +1,4 @@
-//! Trainings of a thousand epochs. For any pictures, every number stays finite and errors do not grow.
+//! Tests with trainings of a thousand epochs. For any pictures, every number stays finite and errors do not grow.
 
 use crate::common::plain::{self, Moments};
 use crate::common::tiles::{picture, same_size};
@@ -11,7 +11,7 @@ const INPUT: Picture = picture(6, 5, 1);
 const SAMPLES: usize = 16;
 const EPOCHS: u64 = 1000;
 
-/// Random pictures, some of them altered.
+/// Five sets of pictures with their names: random pictures, and four alterations of these.
 fn pictures() -> [(&'static str, Vec<f32>); 5] {
     let usual = singles(21, SAMPLES * INPUT.len());
     let changed = |change: &dyn Fn(usize, f32) -> f32| {

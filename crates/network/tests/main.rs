@@ -1,4 +1,4 @@
-//! Promises of networks: layers, convolutions, trainings, predictions, engines.
+//! Tests of networks: layers, convolutions, trainings, predictions, engines.
 
 mod common;
 #[path = "common/draws.rs"]

@@ -1,4 +1,4 @@
-//! Reports too little memory before any computation. The test has its own program, because the limit applies to the whole process.
+//! Tests that too little memory is reported before any computation. They have their own program, because the limit applies to the whole process.
 
 #![cfg(target_os = "linux")]
 

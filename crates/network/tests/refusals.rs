@@ -1,4 +1,4 @@
-//! Invalid trainings and architectures are rejected by name.
+//! Tests that invalid trainings and architectures are rejected, with the name of the fault.
 
 use crate::common::small::{PICTURE, architecture, recipe, sums, values};
 use taceva_network::{

@@ -1,4 +1,4 @@
-//! Guarantees of trainings: the same bits in one run or in parts, and the best epoch at the end.
+//! Tests of trainings: the same bits in one run or in parts, and the best epoch at the end.
 
 use crate::common::small::{PICTURE, architecture, recipe, sums, values};
 use crate::draws::{doubles, singles};

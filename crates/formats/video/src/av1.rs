@@ -1,4 +1,5 @@
-//! AV1 of 8 bits and 4:2:0. The library `rav1d` decodes AV1 only in a confined child process, so a panic in the library ends only that process.
+//! Decoder of AV1 clips with 8 bits per sample, gray or 4:2:0. The library `rav1d` runs only in a confined child process, so its panic ends only that
+//! process.
 //!
 //! The child is a process that runs `serve`, and [`Decoders::av1`](crate::Decoders::av1) names its program. The child receives packets of the clip on
 //! standard input and writes pictures to standard output. On Linux the child can do nothing else: it opens no file, starts no process, and its memory

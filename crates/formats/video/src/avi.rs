@@ -99,7 +99,7 @@ impl Avi {
     }
 }
 
-/// State while the chunks are read.
+/// State of reading the chunks of an AVI file.
 struct Walk<'a> {
     source: &'a Source,
     stream: Option<StreamHeader>,
@@ -158,7 +158,7 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// Reads the packets of a list. `is_whole` is false for a record inside the list of all packets.
+    /// Reads the packets of a list. `is_whole` is true for the list of all packets, false for a record inside it.
     fn movie(&mut self, list: &Chunk, is_whole: bool) -> Result<(), VideoError> {
         let Some(number) = self.stream.as_ref().map(|stream| stream.number) else {
             return Err(self

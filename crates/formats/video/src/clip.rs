@@ -55,8 +55,8 @@ pub struct VideoInfo {
 pub enum Colours {
     /// Luma plane as stored.
     Luma,
-    /// Red, green and blue of 8 bits, converted with the matrix and range of the stream and the nearest chroma sample. The default is BT.601 in the limited
-    /// range. Samples of more than 8 bits are reduced to their upper 8 bits.
+    /// Red, green and blue of 8 bits each, converted with the matrix and range of the stream. Each pixel takes the nearest chroma sample.
+    /// The default is BT.601 in the limited range. Samples of more than 8 bits are reduced to their upper 8 bits.
     Rgb,
 }
 

@@ -53,7 +53,7 @@ pub enum VideoError {
     TooLarge {
         /// Path of the clip.
         path: PathBuf,
-        /// Limited quantity.
+        /// Limited quantity with its unit, such as `bytes of a decoded frame`.
         what: &'static str,
         /// Stated size.
         found: u64,
@@ -83,7 +83,7 @@ pub enum VideoError {
         path: PathBuf,
         /// Index of the frame that is out of order.
         index: u64,
-        /// Index of the frame requested before.
+        /// Index of the frame that was requested before this frame.
         after: u64,
     },
     /// The size of a frame differs from the size of the first frame.
@@ -108,7 +108,7 @@ pub enum VideoError {
         path: PathBuf,
         /// Codec, with the unsupported profile or pixel format.
         codec: String,
-        /// Remedy.
+        /// Remedy for the user, such as the installation of ffmpeg.
         remedy: String,
     },
     /// The clip has no luma plane.
@@ -140,7 +140,7 @@ pub enum VideoError {
         path: PathBuf,
         /// Name of the decoder library or program.
         decoder: &'static str,
-        /// First missing frame, from 0 in presentation order.
+        /// Index of the first frame that the decoder did not return, from 0 in presentation order.
         frame: u64,
         /// Message of the decoder.
         problem: String,

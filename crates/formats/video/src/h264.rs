@@ -40,7 +40,7 @@ pub(crate) struct H264Clip {
 /// Reason why a frame was not decoded.
 pub(crate) enum Refusal {
     Video(VideoError),
-    /// Tool of the codec that the decoder does not support. The text is appended to the name of the codec.
+    /// Feature of the codec that the decoder does not support. The text is appended to the name of the codec.
     Tool(String),
 }
 
@@ -122,7 +122,7 @@ impl H264Clip {
         gop::visit(&mut session, &self.source, &self.presented, sorted, each)
     }
 
-    /// Checks a sequence parameter set within the stream against the first one.
+    /// Checks that a sequence parameter set within the stream agrees with the first set.
     fn check_sequence(&self, unit: &[u8], offset: u64, frame: u64) -> Result<(), Refusal> {
         let Some(sequence) = Sequence::read(unit) else {
             return Err(self

@@ -16,7 +16,7 @@ pub(crate) const INNER_BOXES: u32 = 1 << 16;
 pub(crate) const HEADER_BYTES: u64 = 1 << 20;
 /// Maximum size of the index at the end of an AVI file, bytes: 16 for each chunk.
 pub(crate) const INDEX_BYTES: u64 = CHUNKS * 16;
-/// Maximum size of decoded frames that wait for an earlier frame, bytes: luma of 16 frames, the maximum of H.264, of 16 million pixels.
+/// Maximum total size of decoded frames that wait for an earlier frame, bytes: 16 luma planes of 16 million pixels. H.264 keeps at most 16 frames.
 pub(crate) const HELD_BYTES: u64 = 256 << 20;
 /// Maximum size of a decoded frame, bytes.
 pub(crate) const FRAME_BYTES: u64 = 256 << 20;

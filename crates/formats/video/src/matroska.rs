@@ -54,7 +54,7 @@ pub(crate) fn codec(source: &Source) -> Result<Option<String>, VideoError> {
     Ok(None)
 }
 
-/// Converts `V_FFV1` to `FFV1`.
+/// Common name of a Matroska codec name: `FFV1` for `V_FFV1`.
 fn known(name: &str) -> String {
     let known = match name {
         "V_MPEG4/ISO/AVC" => "H.264",

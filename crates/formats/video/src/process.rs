@@ -6,14 +6,14 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
 use std::time::Duration;
 
-/// Timeout without output.
+/// Time without output after which a decoder program is killed.
 pub(crate) const SILENCE: Duration = Duration::from_secs(60);
-/// Maximum length of a line, bytes. Longer lines are split.
+/// Maximum length of a line of output, bytes. Longer lines are split.
 const LINE_BYTES: u64 = 1 << 16;
-/// Number of queued pieces, which limits the memory.
+/// Maximum number of queued pieces of output, which limits the memory.
 const WAITING: usize = 4;
 
-/// Piece of output.
+/// Piece of the output of a decoder program.
 #[derive(Debug)]
 pub(crate) enum Piece {
     /// Line of standard error, without its end.
@@ -83,7 +83,7 @@ impl Running {
         &mut self.child
     }
 
-    /// Next piece of output, or the end of the program.
+    /// Next piece of output, or the reason why no further piece arrives.
     pub(crate) fn next(&mut self) -> Result<Piece, Ended> {
         match self.pieces.recv_timeout(SILENCE) {
             Ok(piece) => Ok(piece),

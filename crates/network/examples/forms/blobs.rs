@@ -3,7 +3,7 @@
 use taceva_core::random::Draws;
 use taceva_network::{Labels, Samples};
 
-/// Labels of each picture, as shares of its side.
+/// Labels of each picture: position and size of its blob, as shares of the side of the picture.
 pub(crate) const LABELS: [&str; 3] = ["x", "y", "size"];
 
 /// Standard deviation of the noise of each pixel, relative to the brightest blob. Blobs have brightness 0.5 to 1.
@@ -11,9 +11,9 @@ const NOISE: f64 = 0.05;
 
 /// Pictures with their labels.
 pub(crate) struct Blobs {
-    /// `[samples, row, column]`.
+    /// Pixel values, shape `[samples, rows, columns]`.
     pub(crate) pictures: Vec<f32>,
-    /// `[samples, label]`.
+    /// Labels, shape `[samples, labels]`.
     labels: Vec<f64>,
 }
 
@@ -50,7 +50,7 @@ impl Blobs {
         }
     }
 
-    /// The coefficient of determination R² of each label.
+    /// Coefficient of determination R² of the predictions `found`, one for each label, over all samples.
     ///
     /// # Shapes
     /// `found`: `[samples, label]`.

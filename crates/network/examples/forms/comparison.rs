@@ -4,7 +4,7 @@ use taceva_network::ConvolutionForm;
 
 use crate::blobs::LABELS;
 
-/// Steps, counted from 0, whose losses are printed in addition to the last.
+/// Steps, counted from 0, whose losses are printed in addition to the loss of the last step.
 const STEPS: [usize; 3] = [10, 50, 100];
 
 /// Result of one training.
@@ -15,12 +15,12 @@ pub(crate) struct Course {
     pub(crate) losses: Vec<f64>,
     /// R² of each held-out label.
     pub(crate) scores: [f64; LABELS.len()],
-    /// Wall-clock time, including the load of other programs.
+    /// Wall-clock time of the training, s, which other programs can lengthen.
     pub(crate) seconds: f64,
 }
 
-/// Prints a row for each number: mean and standard deviation over seeds in each form, and the difference of means. The last columns are the spread
-/// over seeds (root of the mean variance of both forms), and `yes` if the difference does not exceed it.
+/// Prints a row for each loss and score: mean and standard deviation over seeds in each form, and the difference of means. The last columns are the
+/// spread over seeds (root of the mean variance of both forms), and `yes` if the difference does not exceed it.
 pub(crate) fn print(forms: [ConvolutionForm; 2], courses: &[Course], steps: usize) {
     let [first, second] = forms.map(|form| form.to_string());
     println!("| | {first} | {second} | difference | spread | within |\n|---|---|---|---|---|---|");
@@ -55,7 +55,7 @@ pub(crate) fn print(forms: [ConvolutionForm; 2], courses: &[Course], steps: usiz
     println!("{apart} differences are larger than the spread over seeds");
 }
 
-/// Mean and variance over seeds.
+/// Mean and variance of a loss or score over seeds.
 struct Spread {
     mean: f64,
     variance: f64,

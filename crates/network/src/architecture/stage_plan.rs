@@ -26,7 +26,7 @@ pub enum StagePlan {
 }
 
 impl StagePlan {
-    /// First convolution, for pictures with `inputs` channels.
+    /// First convolution of the stage, for pictures with `inputs` channels.
     pub(crate) const fn first(&self, inputs: usize) -> Convolution {
         match *self {
             StagePlan::Stem { channels } => Convolution {
@@ -54,7 +54,7 @@ impl StagePlan {
         }
     }
 
-    /// Number of trainable parameters for pictures with `inputs` channels.
+    /// Number of trainable parameters of the stage, for pictures with `inputs` channels.
     pub(super) fn parameters(&self, inputs: usize) -> u128 {
         let first = self.first(inputs);
         let normed = |inputs: usize, taps: usize| {
@@ -70,7 +70,7 @@ impl StagePlan {
         normed(inputs, first.taps()) + past
     }
 
-    /// Shape of the output for an input of shape `input`.
+    /// Shape of the stage's output for an input of shape `input`.
     pub(crate) const fn output(&self, input: Picture) -> Picture {
         let convolved = self.first(input.channels).output(input);
         match self {

@@ -15,9 +15,9 @@ use crate::simd::{Job, Vector};
 pub(crate) enum Gate<'a> {
     /// No mask, because the gradient is already masked.
     Open,
-    /// Masks by the normalised picture.
+    /// Zeroes the gradient where the normalised picture is not positive.
     Normalised,
-    /// Masks by these output pictures. Masked values of the gradient are overwritten with zero.
+    /// Overwrites the gradient with zero where these output pictures are not positive.
     Output(&'a Planes),
 }
 
@@ -25,13 +25,13 @@ pub(crate) enum Gate<'a> {
 /// number of values per channel; mean and inverse are fields of [`Moments`].
 #[derive(Clone, Debug)]
 pub(crate) struct GradientSums {
-    /// Σ g, the gradient of the bias.
+    /// Gradient of the bias: sum of the masked output gradient over the batch.
     pub(crate) bias: Aligned,
-    /// Σ g · (x − mean) · inverse, the gradient of the gain.
+    /// Gradient of the gain: sum over the batch of masked output gradient times normalised input.
     pub(crate) gain: Aligned,
-    /// Mean gradient: Σ g / n.
+    /// Mean of the masked output gradient over the batch.
     pub(crate) mean: Aligned,
-    /// Slope over the centred values: inverse² · Σ g · (x − mean) / n.
+    /// Slope of the masked output gradient over the input, with the symbols of [`GradientSums`]: inverse² · Σ g · (x − mean) / n.
     pub(crate) slope: Aligned,
 }
 
@@ -72,7 +72,7 @@ pub(crate) fn gradient_sums(
 }
 
 impl GradientSums {
-    /// Sums over a batch of `samples` values per channel, computed from the sums Σ g and Σ g · (x − mean) of the pictures.
+    /// Sums over a batch of `samples` values per channel, computed from the two sums of each picture in `images`.
     pub(crate) fn over(images: &[ChannelSums], moments: &Moments, samples: usize) -> GradientSums {
         let channels = moments.mean.len();
         let mut into = GradientSums {

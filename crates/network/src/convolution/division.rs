@@ -6,7 +6,7 @@ use crate::panel::PANEL;
 /// Minimum number of products in a part, which is about ten microseconds of work.
 const PRODUCTS_WORTH_A_PART: usize = 1 << 18;
 
-/// Time to read a row of weights from the second- or third-level cache, as the number of pixels multiplied in the same time.
+/// Time to read a row of weights from the second- or third-level cache. The unit is the time to multiply one pixel with this row.
 const PIXELS_OF_A_READ: usize = 8;
 
 /// Division of the outputs of one picture.
@@ -14,9 +14,9 @@ const PIXELS_OF_A_READ: usize = 8;
 pub(super) enum Division {
     /// No division.
     Whole,
-    /// Number of ranges of pixels. Each part reads all weights.
+    /// Division into this number of ranges of pixels. Each part reads all weights.
     Pixels(usize),
-    /// Number of groups of channel panels. Each part reads the whole picture.
+    /// Division into this number of groups of channel panels. Each part reads the whole picture.
     Panels(usize),
 }
 
@@ -25,7 +25,7 @@ pub(super) enum Division {
 pub(super) struct Outputs {
     /// Number of pixels, or of tiles in Winograd's algorithm.
     pub(super) pixels: usize,
-    /// Number of pixels per indivisible group.
+    /// Number of pixels in a group that is never divided.
     pub(super) together: usize,
     /// Number of panels of output channels.
     pub(super) panels: usize,
@@ -56,8 +56,8 @@ impl Outputs {
     }
 }
 
-/// Estimated time of a part, in quarters of the time of one pixel and panel. A tile of sums contains at most four panels. With fewer panels, each loaded value
-/// is used for fewer products.
+/// Estimated time of a part. The unit is a quarter of the time that one pixel of one panel takes. A tile of sums contains at most four panels. With
+/// fewer panels, each loaded value is used for fewer products.
 fn time(pixels: usize, panels: usize) -> usize {
     let effort = 4 * panels + if panels.is_multiple_of(4) { 0 } else { 2 };
     pixels * effort + PIXELS_OF_A_READ * 4 * panels

@@ -53,7 +53,7 @@ pub(super) enum Finish<'a> {
 }
 
 impl SumRule<'_> {
-    /// Rule of a part whose first channel is `channel`, with the start values of the part, and no operation on finished sums.
+    /// Rule for the part of the output whose first channel is `channel`. Keeps the start values of this part, and leaves finished sums unchanged.
     pub(super) fn of_part(self, channel: usize) -> Self {
         let start = match self.start {
             Start::Bias(bias) => Start::Bias(&bias[channel..]),
@@ -65,7 +65,7 @@ impl SumRule<'_> {
 }
 
 impl<'a> Epilogue<'a> {
-    /// Rule for the output values in `range`.
+    /// Start values of sums and operation on finished sums, for the output values in `range`.
     pub(super) fn within(self, range: Range<usize>) -> SumRule<'a> {
         let (start, finish) = match self {
             Epilogue::Raw => (Start::Zero, Finish::Keep),

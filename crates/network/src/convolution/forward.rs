@@ -1,4 +1,4 @@
-//! Forward pass, by either algorithm.
+//! Forward pass of a convolution, directly or by Winograd's algorithm.
 
 use super::form::ConvolutionForm;
 use super::source::Source;

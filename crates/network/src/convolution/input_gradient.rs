@@ -1,4 +1,4 @@
-//! Input gradient, by either algorithm.
+//! Input gradient of a convolution, directly or by Winograd's algorithm.
 
 use super::form::ConvolutionForm;
 use super::target::GradientTarget;

@@ -1,8 +1,8 @@
-//! Input of a forward pass.
+//! Input of the forward pass of a convolution.
 
 use crate::planes::Planes;
 
-/// Input of a forward pass.
+/// Input of the forward pass of a convolution.
 #[derive(Clone, Copy)]
 pub(crate) struct Source<'a> {
     /// Weights returned by [`Forward::weights`](super::Forward::weights).

@@ -1,16 +1,16 @@
-//! Output buffers of the passes.
+//! Output buffers of the passes of a convolution.
 
 use super::ending::{Epilogue, Onto};
 use crate::planes::Planes;
 
-/// Output of a forward pass.
+/// Output of the forward pass of a convolution.
 pub(crate) struct Target<'a> {
     pub(crate) pictures: &'a mut Planes,
     /// Bias and operations applied to the sums.
     pub(crate) epilogue: Epilogue<'a>,
 }
 
-/// Output of an input-gradient pass.
+/// Output of the input-gradient pass of a convolution.
 pub(crate) struct GradientTarget<'a> {
     pub(crate) gradient: &'a mut Planes,
     /// Mode of writing the gradient.

@@ -1,4 +1,4 @@
-//! Weight gradient, by either algorithm.
+//! Weight gradient of a convolution, directly or by Winograd's algorithm.
 
 use super::form::ConvolutionForm;
 use super::winograd;

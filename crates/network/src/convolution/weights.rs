@@ -92,7 +92,7 @@ fn places(convolution: Convolution) -> impl Iterator<Item = usize> {
 /// Number of input panels written at once, whose source values are adjacent in memory.
 const PANELS_AT_ONCE: usize = 2;
 
-/// Task that exchanges inputs and outputs for some input panels.
+/// Task that exchanges inputs and outputs of the weights, for some panels of input channels.
 struct Exchange<'a> {
     weights: &'a [f32],
     taps: usize,

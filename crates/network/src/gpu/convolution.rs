@@ -1,4 +1,4 @@
-//! Convolutions as matrix products. Windows of pixels are gathered and multiplied by the kernels.
+//! Convolutions as matrix products. Windows (the pixels that one output reads) are gathered and multiplied by the kernels.
 //!
 //! burn's own convolutions are not used. With tensor cores they compute in TF32; without tensor cores they process pixel by pixel. In burn 0.21 they also lose
 //! the gradient of pixels where a kernel is narrower than its stride (`conv_transpose2d_direct`).
@@ -18,11 +18,11 @@ pub(crate) struct Convolution<B: Backend> {
     inputs: usize,
     outputs: usize,
     kernel: usize,
-    /// Maximum number of values of a tensor of windows.
+    /// Maximum number of values of a tensor of gathered pixels.
     most: usize,
 }
 
-/// Maximum number of values of a tensor of windows. These values take 128 MiB, the storage buffer size that WebGPU guarantees.
+/// Maximum number of values of a tensor of gathered pixels. These values take 128 MiB, the storage buffer size that WebGPU guarantees.
 const MOST: usize = 1 << 25;
 
 impl<B: Backend> Convolution<B> {
@@ -127,7 +127,7 @@ impl<B: Products> Convolution<B> {
         together(parts, 1).reshape([samples, height, width, channels])
     }
 
-    /// Windows of `pictures`, in batches limited by `most`.
+    /// Windows of `pictures`, in tensors of at most `most` values, or of one picture.
     fn parts(&self, pictures: Tensor<B, 4>, way: Way) -> impl Iterator<Item = Tensor<B, 3>> {
         split(pictures, self.at_once(way)).map(move |pictures| {
             let [samples, height, width, channels] = pictures.dims();
@@ -136,7 +136,7 @@ impl<B: Products> Convolution<B> {
         })
     }
 
-    /// Number of pictures whose windows are gathered at once.
+    /// Number of pictures whose windows are gathered in one tensor.
     fn at_once(&self, way: Way) -> usize {
         let Windows {
             seen, given, taps, ..

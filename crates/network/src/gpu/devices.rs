@@ -1,6 +1,6 @@
 //! Devices for tests.
 
-/// Calls a function of a backend for each kind of GPU that is built and present. Otherwise reports a skipped test.
+/// Calls a test function of a backend for each kind of GPU that is built and present. Otherwise reports a skipped test.
 macro_rules! on_each {
     ($check:ident) => {
         for kind in crate::gpu::GpuKind::ALL {

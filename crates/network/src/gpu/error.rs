@@ -1,8 +1,8 @@
-//! Errors of finding a GPU.
+//! Errors of the search for a GPU.
 
 use crate::gpu::GpuKind;
 
-/// Error of finding a GPU.
+/// Error of the search for a GPU.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GpuError {

@@ -14,7 +14,7 @@ pub enum GpuKind {
 }
 
 impl GpuKind {
-    /// All kinds.
+    /// All kinds of programming interfaces.
     pub const ALL: [GpuKind; 2] = [GpuKind::Cuda, GpuKind::Wgpu];
 
     /// Name of the kind and of its Cargo feature.

@@ -6,7 +6,7 @@ use burn_tensor::backend::Backend;
 /// Number of tiles of 64 × 64 that occupy a GPU. Products with fewer tiles are computed in parts, which are then added.
 const BUSY: usize = 512;
 
-/// Number of consecutive values of a window that always stay in one part.
+/// Number of consecutive values of a window that a division into parts keeps together.
 pub(crate) const LINE: usize = 32;
 
 /// Minimum number of products in a part of a sum.

@@ -46,7 +46,7 @@ pub(crate) struct Normed<B: Backend> {
     pub(crate) shape: [usize; 4],
 }
 
-/// Linear outputs, computed as a convolution of pictures of one pixel.
+/// Linear output layer, computed as a convolution of pictures of one pixel.
 #[derive(Clone, Debug)]
 pub(crate) struct Head<B: Backend> {
     pub(crate) convolution: Convolution<B>,

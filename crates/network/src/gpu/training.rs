@@ -12,7 +12,7 @@ use crate::gpu::products::Products;
 use crate::gpu::weights::{Layout, Weights, numbers, vector};
 use crate::{Network, Rule};
 
-/// State of a step after the forward pass.
+/// State of a training step after the forward pass.
 pub(crate) struct Course<B: Backend> {
     /// Trained tensors, which track gradients.
     learnt: Vec<Tensor<Autodiff<B>, 1>>,

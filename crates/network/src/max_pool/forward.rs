@@ -40,7 +40,7 @@ pub(crate) fn pool_normalised(
         });
 }
 
-/// Task for one picture.
+/// Task of [`pool_normalised`] for one picture.
 struct Pool<'a> {
     raw: &'a [f32],
     from: Layout,

@@ -55,7 +55,7 @@ impl Network {
         })
     }
 
-    /// Adds names to gradients, or to other values of the same shape, that are ordered by slot.
+    /// Adds parameter names to `gradients`, which have one vector per slot, or to other values of the same shape.
     pub(crate) fn named(&self, mut gradients: Vec<Vec<f32>>) -> Vec<NamedTensor> {
         let mut values = std::collections::BTreeMap::new();
         for (prefix, stage) in self.architecture.stage_names().iter().zip(&self.stages) {

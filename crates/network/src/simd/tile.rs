@@ -1,4 +1,4 @@
-//! The two innermost loops, which take nearly all of the run time. Both loops compute tiles of sums in registers.
+//! The two innermost loops of convolutions, which take nearly all of the run time. Both loops compute tiles of sums in registers.
 
 #![expect(unsafe_code, reason = "loads and stores without bounds checks")]
 
@@ -168,7 +168,8 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         self
     }
 
-    /// Adds, for each pixel, the products of a run of `length` input values with as many rows of `weights`. Panels of weights are `stride` values apart.
+    /// Adds to the sums of each pixel the products of `length` consecutive input values with `length` rows of `weights`. Panels of weights are
+    /// `stride` values apart.
     ///
     /// # Panics
     /// If a run exceeds `input`, or the rows exceed `weights`.

@@ -8,7 +8,7 @@
 pub(crate) trait Vector: Copy {
     /// Proof that the CPU has the instructions, required to construct a vector.
     type Proof: Copy;
-    /// Number of values per vector, a divisor of a panel.
+    /// Number of values per vector, a divisor of `PANEL`.
     const LANES: usize;
     /// Number of pixels in a tile of sums. The sums, a row of weights and one value must fit into registers.
     const ROWS: usize;

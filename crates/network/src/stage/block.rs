@@ -31,7 +31,7 @@ pub(crate) struct BlockSpace {
 }
 
 impl Block {
-    /// Block with the first convolution `first`.
+    /// Block whose first convolution is `first`. The slots (indices) of its parameter tensors begin at `slot`.
     pub(super) fn new(first: Convolution, slot: usize) -> Block {
         let Convolution {
             inputs,
@@ -106,8 +106,8 @@ impl BlockSpace {
         both.max(self.second.transformed_len()).max(past)
     }
 
-    /// Normalised output of the first convolution after ReLU. Not stored, because its computation in both passes takes only a hundredth of the
-    /// convolution's time.
+    /// Normalised output of the first convolution after ReLU. The output is not stored, because computing it in both passes takes
+    /// only a hundredth of the convolution's time.
     fn middle(&self, machine: Machine, count: usize, scratch: &mut Scratch) -> Planes {
         let raw = &self.first.raw;
         let mut middle = scratch.take(self.middle, count);

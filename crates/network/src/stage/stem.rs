@@ -12,7 +12,7 @@ use crate::scratch::Scratch;
 pub(crate) struct StemSpace {
     pub(super) normed: NormedSpace,
     pub(crate) output: Planes,
-    /// Position in its window of each output's source pixel.
+    /// Position of each output's source pixel in the pooling window of that output.
     choices: Vec<u8>,
 }
 

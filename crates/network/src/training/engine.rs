@@ -38,7 +38,7 @@ pub trait Engine: fmt::Debug + Send {
     fn moments(&self) -> Result<Moments, NetworkError>;
 }
 
-/// Optimiser state of each parameter, sorted by name. One list (velocities), or two lists (mean gradients, mean squared gradients). Empty before the
+/// Optimiser state of each parameter, sorted by name: one list (velocities), or two lists (mean gradients, mean squared gradients). Empty before the
 /// first step.
 pub type Moments = Vec<Vec<NamedTensor>>;
 

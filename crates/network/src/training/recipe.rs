@@ -60,7 +60,7 @@ impl Recipe {
     /// Computes the loss of some samples with the class weights, and writes the gradient of the loss.
     ///
     /// # Shapes
-    /// `outputs`, `gradient`: `[samples, width]`.
+    /// `outputs`, `gradient`: `[samples, width]`, with `width` outputs per sample.
     /// # Panics
     /// As [`Loss::measure`].
     pub(crate) fn measure(

@@ -4,7 +4,7 @@
 
 use taceva_network::{Architecture, NamedTensor, Network};
 
-/// Draw `position` of `seed`, uniform in 0..1: the output of SplitMix64 at step position + 1.
+/// Random number `position` of `seed`, uniform in 0..1: the output of SplitMix64 at step position + 1.
 pub(crate) fn unit(seed: u64, position: u64) -> f64 {
     let state = seed.wrapping_add((position + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
     let state = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -12,7 +12,7 @@ pub(crate) fn unit(seed: u64, position: u64) -> f64 {
     ((state ^ (state >> 31)) >> 11) as f64 * 0.5_f64.powi(53)
 }
 
-/// `count` draws of `seed` in single precision.
+/// First `count` random numbers of `seed`, in single precision.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "inputs of single precision"
@@ -21,12 +21,12 @@ pub(crate) fn singles(seed: u64, count: usize) -> Vec<f32> {
     (0..count as u64).map(|at| unit(seed, at) as f32).collect()
 }
 
-/// `count` draws of `seed`.
+/// First `count` random numbers of `seed`.
 pub(crate) fn doubles(seed: u64, count: usize) -> Vec<f64> {
     (0..count as u64).map(|at| unit(seed, at)).collect()
 }
 
-/// Network whose tensors, sorted by name, are draws of the seeds `seed`, `seed` + 1, …
+/// Network whose tensors, sorted by name, are computed from random numbers of the seeds `seed`, `seed` + 1, …
 #[expect(
     clippy::cast_possible_truncation,
     reason = "weights of single precision"

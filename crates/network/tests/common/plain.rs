@@ -1,4 +1,4 @@
-//! The same networks in double precision, in plain code: channels before rows, one loop per dimension.
+//! Reference networks in double precision and plain code: channels before rows, one loop per dimension.
 
 #![allow(
     dead_code,
@@ -32,7 +32,7 @@ pub(crate) enum Moments {
     Running,
 }
 
-/// `[count, channels, height, width]`.
+/// Pictures in double precision, shape `[count, channels, height, width]`.
 #[derive(Clone)]
 struct Batch {
     count: usize,
@@ -59,7 +59,7 @@ impl Batch {
     }
 }
 
-/// Input pixel at position `tap` of a kernel. `None` outside the picture.
+/// Index, along one dimension, of the input pixel that output `position` reads at kernel position `tap`. `None` outside the picture.
 fn met(position: usize, stride: usize, tap: usize, padding: usize, length: usize) -> Option<usize> {
     let at = (position * stride + tap).checked_sub(padding)?;
     (at < length).then_some(at)

@@ -1,4 +1,4 @@
-//! A small training: pictures whose labels are sums of their halves.
+//! Small training for tests. The labels of a picture are the sums of two of its halves.
 
 use taceva_network::{
     Architecture, Augmentation, Body, Jitter, Labels, Picture, PlainLayer, Pooling, Recipe, Samples,

@@ -1,4 +1,4 @@
-//! Networks of 3 × 3 convolutions that keep the size of pictures, for Winograd's form.
+//! Networks of 3 × 3 convolutions that keep the size of pictures, for tests of Winograd's algorithm.
 
 use taceva_network::{Architecture, Body, Picture, PlainLayer, Pooling};
 

@@ -1,4 +1,4 @@
-//! Errors of a program without a GPU feature.
+//! Tests of the errors of a program without a GPU feature.
 
 use taceva_network::{Gpu, GpuError, GpuKind};
 

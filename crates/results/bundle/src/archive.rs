@@ -47,7 +47,8 @@ pub(crate) fn pack(root: &Path, names: &[String], path: &Path) -> io::Result<()>
     file.flush()
 }
 
-/// Unpacks the bundle at `path` into the empty folder `into`. Unpacks at most `most` bytes, and fewer if the packed file is small.
+/// Unpacks the bundle at `path` into the empty folder `into`. Unpacks at most `most` bytes, and at most [`GROWTH`] times the packed size plus
+/// [`GROWTH_BYTES`].
 ///
 /// # Errors
 /// [`BundleError::Damaged`] for a refused entry: a link, a device, a repeated name, or a name outside the bundle.
@@ -231,7 +232,7 @@ fn damaged(path: &str, problem: &str) -> BundleError {
     BundleError::Damaged(Damage::new(path, ENTRIES, problem))
 }
 
-/// Packed bytes, unpacked up to a limit.
+/// Reader of the unpacked bytes of a packed bundle, up to a limit.
 struct Capped {
     decoder: MultiGzDecoder<BufReader<File>>,
     left: u64,

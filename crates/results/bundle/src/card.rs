@@ -12,7 +12,7 @@ pub(crate) const NO_LICENCE: &str = "No licence is stated, so nobody may copy th
 /// Sentence on the meaning of a seal.
 pub(crate) const SEAL_REMARK: &str = "A seal is a digest, not a signature: it shows damage and careless edits, not fraud. If predictions, states and results were changed consistently, only the model, or a copy of the truth from another source, shows the change.";
 
-/// Sentences on the columns of the claims.
+/// Sentences on the columns of the table of claims.
 const COLUMNS: &str = "`bias` is the mean of truth − prediction. The last column names the files from which `taceva bundle` computed the number \
                        again: `scores` are the states, `predictions` the tables of truth and prediction, and `form` means no file.";
 
@@ -108,7 +108,7 @@ pub(crate) fn licence(manifest: &Manifest) -> String {
     }
 }
 
-/// Text in a cell of Markdown.
+/// Escapes `text` for a cell of a Markdown table.
 fn cell(text: &str) -> String {
     let mut written = String::with_capacity(text.len());
     for letter in shown(text).to_string().chars() {

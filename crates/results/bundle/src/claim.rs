@@ -13,11 +13,11 @@ use crate::level::Level;
 pub struct Claim {
     /// Index of the study in the results, from 0.
     pub study: usize,
-    /// Metric: `mae`.
+    /// Metric, such as `mae`.
     pub metric: String,
-    /// Channel or plane: `Fz`, `Pxy`.
+    /// Channel or plane, such as `Fz` or `Pxy`.
     pub channel: String,
-    /// Variant of the metric: `slope`; `None` for the metric itself.
+    /// Variant of the metric, such as `slope`; `None` for the metric itself.
     pub variant: Option<String>,
     /// Value, in `unit`.
     pub value: f64,
@@ -27,7 +27,7 @@ pub struct Claim {
     pub unit: Unit,
     /// Number of samples.
     pub n: u64,
-    /// Definition: `mae/1`.
+    /// Name and version of the metric's definition, such as `mae/1`.
     pub definition: String,
     /// Files from which the number can be computed.
     pub from: Vec<String>,

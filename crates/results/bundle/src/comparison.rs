@@ -17,11 +17,11 @@ pub const COMPARISON_SCHEMA: &str = "taceva.bundle-comparison/1";
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct BundleComparison {
-    /// [`COMPARISON_SCHEMA`].
+    /// Schema of the comparison, [`COMPARISON_SCHEMA`].
     pub schema: &'static str,
     /// Facts about both bundles.
     pub bundles: [BundleFacts; 2],
-    /// True if both were scored on the same samples, by the digests of their samples.
+    /// True if both bundles were scored on the same samples, by the digests of their samples.
     pub has_same_samples: bool,
     /// Number of equal claims.
     pub equal: u64,
@@ -31,7 +31,7 @@ pub struct BundleComparison {
     pub definitions: Vec<DefinitionDifference>,
 }
 
-/// Claim that differs.
+/// Claim that differs between two bundles.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ClaimDifference {
@@ -41,13 +41,13 @@ pub struct ClaimDifference {
     pub claim: String,
     /// Value of each bundle; `None` for a bundle without this claim.
     pub values: [Option<f64>; 2],
-    /// Interval of each bundle.
+    /// Interval of 95 % of the claim in each bundle; `None` without an interval.
     pub ci95: [Option<[f64; 2]>; 2],
-    /// Number of samples of each bundle.
+    /// Number of samples behind the claim in each bundle; `None` for a bundle without this claim.
     pub n: [Option<u64>; 2],
 }
 
-/// Claim whose definitions differ.
+/// Claim whose definitions differ between two bundles.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct DefinitionDifference {
@@ -55,7 +55,7 @@ pub struct DefinitionDifference {
     pub study: usize,
     /// Metric, variant and channel: `mae of Fz`.
     pub claim: String,
-    /// Definition and unit of each bundle.
+    /// Definition and unit of the claim in each bundle.
     pub definitions: [String; 2],
 }
 

@@ -52,7 +52,7 @@ impl Environment {
         }
     }
 
-    /// True if the program can use the same instruction sets on this machine.
+    /// True if this machine has the same instruction sets as the machine of this environment.
     pub(crate) fn has_same_sets(&self) -> bool {
         self.arch == std::env::consts::ARCH && self.instruction_sets == instruction_sets()
     }

@@ -12,7 +12,7 @@ pub(crate) fn text(manifest: &Manifest) -> String {
     yaml::block(&Value::Array(entries.collect()))
 }
 
-/// Entry of one number for the hub.
+/// Entry of one number for the Hugging Face Hub.
 pub(crate) struct HubEntry<'a> {
     /// Digest of the samples, in place of a dataset on the hub. Equal digests mean equal samples.
     pub(crate) samples: &'a str,

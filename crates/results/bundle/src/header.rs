@@ -1,4 +1,4 @@
-//! Headers of datasets, which belong to the results that name their digests.
+//! Headers of datasets, matched with results by the digests that the results name.
 
 use taceva_core::shown;
 use taceva_results::EvaluationReport;

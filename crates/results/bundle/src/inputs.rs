@@ -321,7 +321,7 @@ fn tables_in(folder: &Path, wanted: &[&String]) -> Result<BTreeMap<String, PathB
     Ok(known)
 }
 
-/// Headers of the datasets of `request`, which must be datasets of the results, and of the recordings of a run that the results name.
+/// Headers of the datasets of `request` and of the recordings of a run. Rejects a dataset that the results do not name, and skips such a recording.
 fn headers(
     request: &BundleRequest,
     run: Option<&Path>,

@@ -1,20 +1,20 @@
 //! Names of the files of a bundle, and the limits of its readers.
 
-/// The manifest, written last and sealed.
+/// File with the manifest, written last and sealed.
 pub(crate) const MANIFEST: &str = "bundle.json";
-/// The results of the bundle.
+/// File with the results of the bundle.
 pub(crate) const RESULTS: &str = "results.json";
-/// The digest of the samples.
+/// File with the digest of the samples.
 pub(crate) const SAMPLES: &str = "samples.json";
-/// The machine on which the bundle was made.
+/// File that describes the machine on which the bundle was made.
 pub(crate) const ENVIRONMENT: &str = "environment.json";
-/// The card for readers.
+/// File with the card for readers.
 pub(crate) const CARD: &str = "README.md";
-/// The citation.
+/// File with the citation.
 pub(crate) const CITATION: &str = "CITATION.cff";
-/// The licence.
+/// File with the licence.
 pub(crate) const LICENCE: &str = "LICENSE";
-/// The claims for the Hugging Face Hub.
+/// File with the claims for the Hugging Face Hub.
 pub(crate) const EVAL_RESULTS: &str = ".eval_results/taceva.yaml";
 /// File with the description as a Croissant.
 pub(crate) const CROISSANT: &str = "croissant.json";
@@ -22,7 +22,7 @@ pub(crate) const CROISSANT: &str = "croissant.json";
 pub(crate) const CRATE: &str = "ro-crate-metadata.json";
 /// Files generated from the manifest.
 pub(crate) const GENERATED: [&str; 6] = [CARD, CITATION, LICENCE, EVAL_RESULTS, CROISSANT, CRATE];
-/// The header of a dataset.
+/// File with the header of a dataset.
 pub(crate) const HEADER: &str = "dataset.toml";
 /// Role of the header of a dataset.
 pub(crate) const HEADER_ROLE: &str = "dataset";
@@ -72,7 +72,7 @@ pub(crate) const GROWTH: u64 = 128;
 /// Unpacked size, bytes, that is allowed in addition to the ratio [`GROWTH`].
 pub(crate) const GROWTH_BYTES: u64 = 64 << 20;
 
-/// True for the name of a file or folder of bundles.
+/// True if `name` is a file that `taceva bundle` writes, by its name or its folder.
 pub(crate) fn is_own(name: &str) -> bool {
     let fixed = [MANIFEST, RESULTS, SAMPLES, ENVIRONMENT];
     let is_inner = ["states/", "tables/", "model/", "frames/"]

@@ -17,7 +17,7 @@ pub enum Level {
     Scores,
     /// Tables reproduce the states and the scores.
     Predictions,
-    /// The model reproduces the predictions in the tables from its recording.
+    /// The model reproduces the predictions in the tables when it predicts on the recording again.
     Model,
     /// A fit by the model card reproduces the model, or gives scores within the intervals of the claims.
     Fit,

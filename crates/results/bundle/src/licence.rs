@@ -79,7 +79,7 @@ pub fn is_licence(text: &str) -> bool {
     KNOWN.contains(&text)
 }
 
-/// Expectation for the message on an invalid licence `text`, with the nearest identifier.
+/// Accepted licences, for the message on an invalid licence `text`. Names the identifier nearest to `text`.
 ///
 /// ```
 /// assert_eq!(

@@ -24,7 +24,7 @@ const UNFINISHED: &str = "Draft: author or licence is missing.";
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Manifest {
-    /// [`BUNDLE_SCHEMA`].
+    /// Schema of the manifest, [`BUNDLE_SCHEMA`].
     pub schema: String,
     /// Name of the bundle for readers.
     pub name: String,
@@ -147,9 +147,9 @@ impl StudyFiles {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct TableFiles {
-    /// The truth.
+    /// Path of the table of truth in the bundle.
     pub truth: String,
-    /// The predictions.
+    /// Path of the table of predictions in the bundle.
     pub prediction: String,
     /// Name of the key column that the caller chose; `None` to find the column by its name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -248,7 +248,7 @@ impl Manifest {
         Some(&file.sha256)
     }
 
-    /// The sealed text.
+    /// Text of the manifest with its seal.
     ///
     /// # Errors
     /// [`BundleError::Results`] if the manifest cannot be written as JSON.

@@ -22,7 +22,7 @@ pub(crate) fn front_matter(manifest: &Manifest) -> String {
     format!("---\n{}---\n\n", yaml::block(&own))
 }
 
-/// Claims of study `study`; `None` without claims.
+/// Result of study `study` in the `model-index`; `None` without claims.
 fn result(manifest: &Manifest, study: usize) -> Option<Value> {
     let claims = manifest.claims.iter();
     let own = claims.filter(|claim| claim.study == study);

@@ -1,4 +1,4 @@
-//! Names of operators that readers of a bundle see.
+//! Search for names of operators in the files that a bundle copies.
 
 use std::fs;
 

@@ -27,7 +27,7 @@ pub(crate) struct Stop {
 #[derive(Clone, Debug)]
 pub(crate) struct TableScores {
     pub(crate) scores: Vec<Score>,
-    /// True if the sums differ from the sums of the state, although they must be equal.
+    /// True if the sums of the tables differ from the sums of the state, although they must be equal.
     pub(crate) has_other_sums: bool,
     /// Metrics that cannot be computed from the tables.
     pub(crate) left_out: Vec<Skip>,
@@ -79,7 +79,7 @@ impl Recomputation {
         }
     }
 
-    /// Scores of the study with these files and this report.
+    /// Computes the scores of the study with these files and this report again.
     pub(crate) fn of(
         source: &Source,
         files: &StudyFiles,
@@ -237,7 +237,7 @@ fn samples(source: &Source, name: &str) -> Result<Samples, Stop> {
     Samples::read(&text).map_err(Stop::failed)
 }
 
-/// Table of samples in `files`, compared with the predictions of the model on one of `datasets`.
+/// Compares the table of samples in `files` with the predictions of the model on one of `datasets`.
 fn of_model(
     source: &Source,
     files: &StudyFiles,

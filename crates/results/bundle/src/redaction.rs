@@ -7,7 +7,7 @@ use taceva_core::shown;
 /// Word that replaces redacted text.
 const REDACTED: &str = "redacted";
 
-/// Words that are redacted in the texts of a bundle.
+/// Kind of word that is redacted in the texts of a bundle.
 ///
 /// ```
 /// use taceva_bundle::{Redaction, redacted};
@@ -53,7 +53,7 @@ const SERIAL_KEYS: [&str; 4] = ["serial", "serial_number", "serial_no", "sn"];
 /// Characters that end a word, and a path outside quotes.
 const ENDS: &str = " \t\r\n\"',;()[]{}=";
 
-/// The text with `what` redacted, and the number of redacted words.
+/// Redacts words of the kinds `what` in `text`. Returns the text and the number of redacted words.
 pub fn redacted(text: &str, what: &[Redaction]) -> (String, u64) {
     let (mut written, mut count) = (String::with_capacity(text.len()), 0);
     let (mut key, mut quote, mut lists) = (String::new(), None, 0_usize);

@@ -40,7 +40,7 @@ pub struct BundleRequest {
     pub adds_frames: bool,
     /// True if tables are left out, and only their digests are stated.
     pub withholds_predictions: bool,
-    /// Words that are redacted in texts.
+    /// Kinds of words that are redacted in texts.
     pub redactions: Vec<Redaction>,
     /// Number of threads.
     pub jobs: NonZeroUsize,
@@ -50,9 +50,9 @@ pub struct BundleRequest {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct ScoredTables {
-    /// The truth.
+    /// Path of the table of truth.
     pub truth: PathBuf,
-    /// The predictions.
+    /// Path of the table of predictions.
     pub prediction: PathBuf,
     /// Name of the key column that the caller chose; `None` to find the column by its name.
     pub key: Option<String>,
@@ -70,7 +70,7 @@ impl ScoredTables {
 }
 
 impl BundleRequest {
-    /// A draft of the results at `result`, made on the day `created`, on one thread.
+    /// Request for a draft bundle of the results at `result`, made on the day `created`, on one thread.
     pub fn new(result: &Path, created: &str) -> BundleRequest {
         BundleRequest {
             result: result.to_owned(),

@@ -7,11 +7,11 @@ use crate::claim::properties;
 use crate::layout::{CRATE, RESULTS};
 use crate::manifest::{BundledFile, Manifest, StudyFiles, licence_address};
 
-/// Profile of a run of programs.
+/// Identifier of the profile of a run of programs.
 const PROFILE: &str = "https://w3id.org/ro/wfrun/process/0.5";
 /// Address of the repository of the program.
 const PROGRAM: &str = env!("CARGO_PKG_REPOSITORY");
-/// The run that computed the claims again.
+/// Identifier of the run that computed the claims again.
 const RUN: &str = "#recomputation";
 
 /// Text of `ro-crate-metadata.json` of a bundle.
@@ -59,7 +59,7 @@ pub(crate) fn of_folder(manifest: &Manifest, description: &str, licences: &[Stri
     own.text(Vec::new(), after)
 }
 
-/// Entities of every crate.
+/// Entities that every RO-Crate of a bundle or catalogue contains.
 struct Entities {
     root: Value,
     /// Licences and the organization, which the root names.
@@ -104,7 +104,7 @@ impl Entities {
         }
     }
 
-    /// The crate with entities before and after its root.
+    /// Text of the RO-Crate, with entities before and after its root.
     fn text(self, before: Vec<Value>, after: Vec<Value>) -> String {
         let mut graph = vec![json!({
             "@id": CRATE,

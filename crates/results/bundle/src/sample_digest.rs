@@ -45,7 +45,7 @@ const BESIDE: [&str; 20] = [
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct SampleDigest {
     pub(crate) schema: String,
-    /// Digest of all studies.
+    /// Digest over the samples of all studies.
     pub(crate) digest: String,
     pub(crate) studies: Vec<StudySamples>,
 }
@@ -53,7 +53,7 @@ pub(crate) struct SampleDigest {
 /// Samples of one study.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct StudySamples {
-    /// `samples` for a digest over id, frame and labels of each sample; `provenance` without a table.
+    /// Basis of the digest: `samples` for id, frame and labels of each sample, `provenance` without a table.
     pub(crate) by: String,
     /// Number of samples; `None` without a table.
     pub(crate) count: Option<u64>,

@@ -13,7 +13,7 @@ pub const VERIFICATION_SCHEMA: &str = "taceva.verification/1";
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Verification {
-    /// [`VERIFICATION_SCHEMA`].
+    /// Schema of the verification, [`VERIFICATION_SCHEMA`].
     pub schema: &'static str,
     /// The bundle; `None` if its manifest cannot be read.
     pub bundle: Option<BundleFacts>,
@@ -74,16 +74,16 @@ pub struct LevelCheck {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub enum Verdict {
-    /// Equal, bit for bit.
+    /// The recomputed number equals the claim, bit for bit.
     #[serde(rename = "equal")]
     Equal,
-    /// Different, but within the tolerance.
+    /// The recomputed number differs from the claim, but within the tolerance.
     #[serde(rename = "within")]
     Within,
-    /// Different by more than the tolerance.
+    /// The recomputed number differs from the claim by more than the tolerance.
     #[serde(rename = "differs")]
     Differs,
-    /// Not computed again, for a reason.
+    /// The number of the claim was not computed again.
     #[serde(rename = "not recomputable")]
     NotRecomputable,
 }
@@ -111,10 +111,10 @@ pub struct ClaimCheck {
     pub channel: String,
     /// Variant of the metric; `None` for the metric itself.
     pub variant: Option<String>,
-    /// Number in the manifest.
+    /// Value of the claim in the manifest.
     #[serde(rename = "printed")]
     pub stated: f64,
-    /// Number that was computed again; `None` if no number was computed.
+    /// Value that was computed again; `None` if no value was computed.
     pub recomputed: Option<f64>,
     /// Deepest level that the claim reached.
     pub level: Level,
@@ -145,9 +145,9 @@ pub struct OtherCheck {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct Summary {
-    /// Number of equal claims, bit for bit.
+    /// Number of claims that are equal, bit for bit.
     pub equal: u64,
-    /// Number of different claims within the tolerance.
+    /// Number of claims that differ, but within the tolerance.
     pub within: u64,
     /// Number of claims that differ by more than the tolerance.
     pub differs: u64,
@@ -205,7 +205,7 @@ impl Verification {
         }
     }
 
-    /// Adds a level.
+    /// Adds `level`, which counts as reached if there is no `reason`.
     pub(crate) fn add_level(&mut self, level: Level, reason: Option<String>) {
         self.levels.push(LevelCheck {
             level,

@@ -137,9 +137,9 @@ pub(crate) struct Checked {
     pub(crate) others: Vec<OtherCheck>,
     /// States that cannot be read.
     pub(crate) damage: Vec<Damage>,
-    /// Reasons why a study has no scores of states.
+    /// Reasons why a study has no scores computed from states.
     states: Vec<String>,
-    /// Reasons why a study has no scores of tables.
+    /// Reasons why a study has no scores computed from tables.
     tables: Vec<String>,
     /// Reasons why a study was not compared with its model.
     models: Vec<String>,

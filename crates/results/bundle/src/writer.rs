@@ -1,4 +1,4 @@
-//! Files of a bundle while it is written.
+//! Writer of the files of a bundle.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -15,7 +15,7 @@ use crate::layout::{FRAMES, FRAMES_ROLE, MODEL_ROLE, MOST_MODEL, MOST_TABLE, MOS
 use crate::manifest::{BundledFile, StudyFiles, TableFiles, Withheld};
 use crate::source::digest_of;
 
-/// Files of a bundle while it is written.
+/// Writer of the files of a bundle.
 pub(crate) struct Writer<'a> {
     pub(crate) root: &'a Path,
     pub(crate) files: Vec<BundledFile>,

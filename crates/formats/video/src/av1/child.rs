@@ -1,4 +1,4 @@
-//! Child process: confines itself, then decodes the packets of its parent.
+//! Child process: confines itself, then decodes the packets that its parent sends.
 
 use std::io::{self, Read, Write};
 
@@ -23,9 +23,9 @@ pub enum ServeError {
 
 /// Decodes AV1 for a parent that writes to `input` and reads from `output`, until the parent closes `input`.
 ///
-/// Confines the whole process permanently before it decodes the first byte of a clip. On Linux the process can then open no file or connection, start no
-/// process, and use memory only for frames of the stated size. The confinement needs seccomp filters, on x86-64 or a 64-bit ARM. On other systems the
-/// process keeps its rights. Call this function last in a separate command.
+/// Confines the whole process permanently before it decodes the first byte of a clip. On Linux the process can then open no file or connection and
+/// start no process. Memory is limited to frames of the size that the parent states. The confinement needs seccomp filters on x86-64 or 64-bit ARM.
+/// On other systems the process keeps its rights. Call this function last in a separate command.
 ///
 /// # Errors
 /// [`ServeError`]. The parent detects the exit of the child. A panic in the decoder ends the process.

@@ -23,7 +23,7 @@ pub(crate) struct Av1Clip {
     source: Source,
     samples: Vec<Sample>,
     presented: Vec<u32>,
-    /// Settings that are sent before the first sample.
+    /// AV1 sequence header from the container, which is sent to the child before the first sample.
     settings: Vec<u8>,
     size: Greeting,
     coding: YuvCoding,
@@ -47,7 +47,7 @@ impl Av1Clip {
         }
     }
 
-    /// Opens the clip of a track with the settings `settings`, to be decoded by `program`.
+    /// Opens the AV1 clip of `track`, to be decoded by `program`. `settings` is the content of the MP4 box `av1C`.
     pub(crate) fn open(
         source: Source,
         track: Track,
@@ -147,7 +147,7 @@ impl Av1Clip {
     }
 }
 
-/// Visit of a clip, with a running child process.
+/// State of one visit of a clip, with the running child process.
 struct Session<'a> {
     clip: &'a Av1Clip,
     colours: Colours,

@@ -59,7 +59,7 @@ impl Decoder {
         }
     }
 
-    /// Decodes the packet of one frame.
+    /// Decodes `bytes`, the packet of one frame. Returns the picture only if `is_wanted`.
     pub(super) fn decode(&mut self, bytes: &[u8], is_wanted: bool) -> Result<Answer, Refused> {
         if bytes.is_empty() {
             return Ok(Answer::Decoded { has_picture: false });
@@ -116,7 +116,7 @@ impl Drop for Decoder {
     }
 }
 
-/// Bytes owned by the library.
+/// Compressed packet, whose bytes the library owns.
 struct Packet(Dav1dData);
 
 impl Packet {

@@ -7,10 +7,10 @@ use std::io::{self, Read, Write};
 #[cfg(feature = "av1")]
 use crate::limits;
 
-/// First bytes of the protocol. The last byte is the version.
+/// First bytes that the parent sends. The last byte is the version of the protocol.
 const LETTERS: [u8; 8] = *b"tacAV1\x00\x01";
 
-/// Greeting of the parent: the size of all frames.
+/// First message of the parent: the size that all frames have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Greeting {
     pub(super) width: u32,
@@ -155,7 +155,7 @@ impl Answer {
         }
     }
 
-    /// Reads the bytes of the next answer, for frames of the size of `greeting`. Returns no bytes at the end.
+    /// Reads the bytes of the next answer, for frames of the size of `greeting`. Returns no bytes at the end of the input.
     pub(super) fn take(from: &mut dyn Read, greeting: Greeting) -> io::Result<Vec<u8>> {
         let mut answer = Vec::new();
         let mut more = |answer: &mut Vec<u8>, count: u64| {
@@ -194,7 +194,7 @@ impl Answer {
         Ok(answer)
     }
 
-    /// Parses the bytes of [`Answer::take`].
+    /// Parses the bytes that [`Answer::take`] returned.
     pub(super) fn parse(mut bytes: Vec<u8>) -> Option<Answer> {
         Some(match *bytes.first()? {
             b'D' => Answer::Decoded {
@@ -213,7 +213,7 @@ impl Answer {
 }
 
 impl Yuv {
-    /// Parses the header before the planes, which follows the letter of the kind.
+    /// Parses the header of a picture, between the first letter of `answer` and the planes.
     fn head(answer: &[u8]) -> Option<Yuv> {
         let head: &[u8; PICTURE_HEAD] = answer.get(1..)?.first_chunk()?;
         let &[

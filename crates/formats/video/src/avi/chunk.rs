@@ -35,9 +35,9 @@ impl fmt::Display for ChunkId {
 #[derive(Clone, Debug)]
 pub(super) struct Chunk {
     pub(super) id: ChunkId,
-    /// Offset of the first letter, bytes.
+    /// Offset of the first letter in the file, bytes.
     pub(super) at: u64,
-    /// Offset of the content, bytes.
+    /// Offset of the content in the file, bytes.
     pub(super) body: u64,
     /// Size of the content without padding, bytes.
     pub(super) size: u64,

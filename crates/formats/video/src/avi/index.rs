@@ -6,7 +6,7 @@ use crate::limits;
 use crate::packets::Packet;
 use crate::source::Source;
 
-/// Entries of the OpenDML indices among the pictures, in order.
+/// Entries of the OpenDML indices that a file stores among its pictures, in file order.
 #[derive(Debug, Default)]
 pub(super) struct Index {
     entries: Vec<(u64, Packet)>,
@@ -56,7 +56,7 @@ impl Index {
     }
 }
 
-/// Checks the index at the end of a part against the `packets` of the stream `number` in that part. The list of the part begins at offset `base`.
+/// Checks the index at the end of a RIFF part against the `packets` of stream `stream` in that part. The list of packets begins at offset `base`.
 pub(super) fn check_idx1(
     source: &Source,
     chunk: &Chunk,

@@ -10,7 +10,7 @@ use crate::error::VideoError;
 use crate::limits;
 use crate::process::{Ended, Running};
 
-/// Command for ffmpeg, with the first video stream of the clip as input, not rotated, and the arguments `output`.
+/// Command that runs ffmpeg with the arguments `output`. The input is the first video stream of the clip, not rotated.
 pub(super) fn command(path: &Path, program: &Path, output: &[&str]) -> Result<Command, VideoError> {
     let file = File::open(path).map_err(VideoError::io("open", path))?;
     let mut command = Command::new(program);
@@ -48,7 +48,7 @@ pub(super) fn command(path: &Path, program: &Path, output: &[&str]) -> Result<Co
 const MAX_PIXELS: &str = "67108864";
 const MAX_ALLOCATED: &str = "1073741824";
 
-/// Containers and raw streams that store their own frames, as ffmpeg names them.
+/// Containers and raw streams that refer to no other file, as ffmpeg names them.
 const CONTAINERS: &str = "avi,matroska,mov,mpegts,mpeg,mpegvideo,m4v,h264,hevc,obu,ivf,ogg,flv,asf,mxf,nut,dv,gif,mjpeg,yuv4mpegpipe";
 
 pub(super) fn not_started(

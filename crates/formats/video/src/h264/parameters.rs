@@ -6,7 +6,7 @@ use super::bits::Bits;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Sequence {
     profile: u32,
-    /// Chroma format: 0 gray, 1 4:2:0, 2 4:2:2, 3 4:4:4.
+    /// Chroma format: 0 for gray, 1 for 4:2:0, 2 for 4:2:2, 3 for 4:4:4.
     chroma: u32,
     luma_bits: u32,
     chroma_bits: u32,
@@ -16,7 +16,7 @@ pub(crate) struct Sequence {
     has_fields: bool,
     is_cut_left_or_top: bool,
     has_order_by_cycle: bool,
-    /// Size of the shown picture, pixels.
+    /// Width and height of the shown picture, pixels.
     pub(super) width: u32,
     pub(super) height: u32,
     /// True for samples from 0 to 255; `None` if the stream states no range.
@@ -25,7 +25,7 @@ pub(crate) struct Sequence {
     pub(super) matrix: Option<u16>,
 }
 
-/// Limits of level 6.2: number of macroblocks of a frame, and of all reference frames (ITU-T H.264, table A-1).
+/// Limits of level 6.2 (ITU-T H.264, table A-1): macroblocks of one frame, and macroblocks of all reference frames.
 const MOST_BLOCKS: u64 = 139_264;
 const MOST_KEPT_BLOCKS: u64 = 696_320;
 

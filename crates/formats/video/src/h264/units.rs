@@ -4,7 +4,7 @@ use super::parameters::Sequence;
 use crate::error::VideoError;
 use crate::source::Source;
 
-/// Contents of `avcC`.
+/// Settings of an H.264 stream, from the MP4 box `avcC`.
 #[derive(Clone, Debug)]
 pub(crate) struct Settings {
     /// Size of the length prefix of a unit, bytes: 1, 2 or 4.
@@ -15,7 +15,7 @@ pub(crate) struct Settings {
     pub(super) sequence: Option<Sequence>,
 }
 
-/// Kind of a unit.
+/// Kind of a unit of an H.264 stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum UnitKind {
     /// Part of a picture.

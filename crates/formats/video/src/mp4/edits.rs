@@ -1,4 +1,4 @@
-//! Edit list of a track, which states the presented part.
+//! Edit list of a track: the part of the track that a player presents.
 
 use super::boxes::BoxAt;
 use crate::error::VideoError;

@@ -8,10 +8,10 @@ use crate::source::Source;
 /// Description of the samples of a track.
 #[derive(Clone, Debug)]
 pub(crate) struct Entry {
-    /// Number of descriptions. Only the first is read.
+    /// Number of sample descriptions of the track. Only the first is read.
     pub(super) count: u32,
     pub(crate) coding: Coding,
-    /// Size in the container, pixels.
+    /// Width and height that the container states, pixels.
     pub(crate) width: u32,
     pub(crate) height: u32,
     /// Colours that the container states; `None` if it states none.

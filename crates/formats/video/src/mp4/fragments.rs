@@ -77,7 +77,7 @@ struct Reader<'a> {
     source: &'a Source,
     number: u32,
     defaults: Defaults,
-    /// Total size of the samples read, bytes. At most the size of the file, because samples cannot overlap.
+    /// Total size of the samples read, bytes; at most the size of the file, because samples cannot overlap.
     bytes: u64,
     samples: &'a mut Vec<Sample>,
 }

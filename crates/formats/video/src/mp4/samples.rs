@@ -184,7 +184,7 @@ fn read_offsets(source: &Source, tables: &BoxAt, sizes: &[u32]) -> Result<Vec<u6
     Ok(offsets)
 }
 
-/// Presentation time of each of `count` samples, in ticks.
+/// Presentation time of each of `count` samples, in ticks of the track.
 fn read_times(source: &Source, tables: &BoxAt, count: usize) -> Result<Vec<i64>, VideoError> {
     let found = tables.need(source, b"stts")?;
     let (mut fields, _) = table(source, &found)?;
@@ -213,7 +213,7 @@ fn read_times(source: &Source, tables: &BoxAt, count: usize) -> Result<Vec<i64>,
     Ok(times)
 }
 
-/// Adds to `times` the delay between decoding and presentation of each sample.
+/// Adds to `times` the delay between decoding and presentation of each sample, in ticks of the track.
 fn add_delays(source: &Source, found: &BoxAt, times: &mut [i64]) -> Result<(), VideoError> {
     let (mut fields, _) = table(source, found)?;
     let count = times.len();

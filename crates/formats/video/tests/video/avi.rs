@@ -58,7 +58,7 @@ fn a_frame_beyond_the_clip_says_how_many_there_are() {
     assert_eq!(stopped.expect_err("stopped").to_string(), "enough");
 }
 
-/// Writes a copy of the clip after `change`.
+/// Writes a copy of the clip to `folder`, with its bytes altered by `change`.
 fn changed(folder: &Path, change: impl FnOnce(&mut Vec<u8>)) -> PathBuf {
     let mut bytes = std::fs::read(path("avi-mjpeg", "ball_1.avi")).expect("readable");
     change(&mut bytes);

@@ -23,7 +23,7 @@ const PIXELS_AT_ONCE: usize = 384;
 /// Minimum number of pictures for which the border is skipped, equal to the number of rows in a tile of sums.
 const IMAGES_WORTH_CLASSES: usize = 6;
 
-/// Maximum number of pixels of a tile of sums.
+/// Maximum number of pixels of a tile of sums: the sums that the inner loop keeps in registers.
 pub(super) const ROWS: usize = 6;
 
 /// Forward pass, prepared for pictures of one memory layout.
@@ -66,8 +66,8 @@ impl Forward {
         }
     }
 
-    /// Classes to compute for `images` pictures. Each class reads the weights again, which is efficient for a sufficient number of pixels. Only zeros are
-    /// skipped, so outputs do not depend on this choice.
+    /// Classes to compute for `images` pictures: one class of all pixels, or one class per pixel for many tiny pictures. Each class reads the weights
+    /// again, so it needs many pixels. Only zeros are skipped, so outputs do not depend on this choice.
     fn classes(&self, images: usize) -> &[Class] {
         if self.apart.is_empty() || images < IMAGES_WORTH_CLASSES {
             std::slice::from_ref(&self.whole)

@@ -97,7 +97,8 @@ impl InputGradient {
 }
 
 impl Class {
-    /// Classes of the input pixels at `first_y` + i · stride, `first_x` + j · stride. There is one class, or one for each pixel if the border is skipped.
+    /// Classes of the input pixels in every stride-th row from `first_y` and every stride-th column from `first_x`. There is one class, or one for
+    /// each pixel if the border is skipped.
     fn all_of(
         convolution: Convolution,
         output: Layout,

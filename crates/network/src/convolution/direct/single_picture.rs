@@ -78,7 +78,7 @@ impl<'a> Divided<'a> {
         });
     }
 
-    /// Divides the work by panels. Each part writes to its own buffer, and the buffers are then gathered.
+    /// Divides the work by panels of output channels. Each part writes to its own buffer, and the buffers are then gathered.
     fn by_panels(
         self,
         machine: Machine,

@@ -1,4 +1,4 @@
-//! Weight gradient: one row per input value, each summed over pixels.
+//! Weight gradient of the direct algorithm. Each row belongs to one input value of the kernel, and is a sum over pixels.
 
 use rayon::prelude::*;
 
@@ -142,7 +142,7 @@ struct Task<'a> {
     panels: Vec<&'a mut [f32]>,
 }
 
-/// One task over a group of pictures.
+/// Sums of one task over a group of pictures.
 struct Sums<'a, 'b> {
     pixels: &'a Pixels,
     input: &'a [f32],

@@ -46,7 +46,8 @@ pub(super) fn tiles_at_once(weights: &[f32]) -> usize {
     }
 }
 
-/// Number of tiles per range, at most about `most`. Divides `total` into nearly equal ranges, rounded up to whole tiles of sums.
+/// Number of tiles per range, if `total` tiles are divided into nearly equal ranges of at most about `most` tiles. Rounded up to a multiple of 6, the
+/// number of rows in a tile of sums.
 pub(super) fn stretch(total: usize, most: usize) -> usize {
     total.div_ceil(total.div_ceil(most)).next_multiple_of(6)
 }

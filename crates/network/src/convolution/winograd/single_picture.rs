@@ -105,7 +105,7 @@ impl<'a> Divided<'a> {
         team::divide(stretches, |part| self.part(machine, part, rooms));
     }
 
-    /// Divides the work by panels. Each part writes to its own buffer, and the buffers are then gathered.
+    /// Divides the work by panels of output channels. Each part writes to its own buffer, and the buffers are then gathered.
     fn by_panels(
         self,
         machine: Machine,

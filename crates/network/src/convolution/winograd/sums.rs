@@ -1,4 +1,4 @@
-//! Sums over tiles at each point. One task computes the sums of one point and a few panels, tile after tile.
+//! Sums over tiles at each point of Winograd's algorithm. One task computes the sums of one point and a few panels, tile after tile.
 
 use rayon::prelude::*;
 
@@ -9,7 +9,7 @@ use crate::machine::Machine;
 use crate::panel::PANEL;
 use crate::simd::{Job, Pixels, Tile, Vector};
 
-/// Number of tiles per piece.
+/// Number of tiles of a piece, which is transformed as a whole.
 pub(super) const PIECE: usize = 16;
 
 /// Number of channel panels per task, the greatest number that the widest machine sums at once.
@@ -75,7 +75,7 @@ fn pixels(tiles: usize, [read, written]: [usize; 2]) -> Pixels {
     Pixels::new(places.collect())
 }
 
-/// Sums of one point and some panels.
+/// Task that computes the sums of one point and some panels.
 struct Sums<'a> {
     pieces: &'a Pieces<'a>,
     point: usize,

@@ -38,7 +38,7 @@ fn error(found: &[f32], expected: &[f64]) -> f64 {
     (differences.sum::<f64>() / squares).sqrt()
 }
 
-/// Errors of each pass, the greatest of all instruction sets.
+/// Greatest root mean square error of each pass over all instruction sets.
 fn errors(case: &Case, numbers: &Numbers) -> [f64; 3] {
     let expected = case.definition(numbers);
     let mut worst = [0.0_f64; 3];

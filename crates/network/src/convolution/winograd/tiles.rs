@@ -173,7 +173,7 @@ impl Stretch {
     }
 }
 
-/// Sums of one row of a tile at `pixels`, beginning with `channel`. Start value and finish have been applied.
+/// Sums of one row of a tile from `channel` on, after the start value and the operation on finished sums.
 #[inline(always)]
 fn finished<V: Vector>(
     proof: V::Proof,

@@ -1,4 +1,4 @@
-//! Whole packed bundles, and forged ones.
+//! Tests of complete and of forged packed bundles.
 
 use super::*;
 
@@ -36,7 +36,7 @@ fn forge(path: &Path, entries: &[Forged<'_>]) {
     packed.finish().expect("room");
 }
 
-/// Outcome of unpacking a forged archive, in words.
+/// Result of unpacking a forged archive, in words.
 fn unpacked(entries: &[Forged<'_>]) -> Result<(), String> {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("b.tar.gz");
@@ -204,7 +204,7 @@ fn every_cut_is_refused_and_a_damaged_byte_changes_no_content_unnoticed() {
     }
 }
 
-/// A disk without room.
+/// Writer that fails like a full disk.
 struct Full;
 
 impl Write for Full {

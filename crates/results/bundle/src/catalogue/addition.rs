@@ -19,15 +19,15 @@ use crate::manifest::Manifest;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Addition {
-    /// Entries that got rows, as paths in the catalogue.
+    /// Entries that received rows, as paths in the catalogue.
     pub entries: Vec<String>,
     /// Digest of the bundle's manifest.
     pub bundle: String,
-    /// Number of rows in `[[measured]]`.
+    /// Number of rows of the bundle in tables `[[measured]]`.
     pub measured: u64,
-    /// Number of rows in `[[unknown]]`.
+    /// Number of rows of the bundle in tables `[[unknown]]`.
     pub unknown: u64,
-    /// Number of rows in `[[simulated]]`.
+    /// Number of rows of the bundle in tables `[[simulated]]`.
     pub simulated: u64,
     /// Lowest verification level of the rows.
     pub level: String,

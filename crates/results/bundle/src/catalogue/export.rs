@@ -95,7 +95,7 @@ pub fn catalogue_form(
     }])
 }
 
-/// Numbers of `sensors` for the hub: the tasks, and one file for each sensor.
+/// Numbers of `sensors` for the Hugging Face Hub: the tasks, and one file for each sensor.
 fn hub(sensors: &[Sensor]) -> Vec<FormFile> {
     let rows = sensors.iter().flat_map(Sensor::all_rows);
     let tasks: BTreeSet<String> = rows.map(task).collect();

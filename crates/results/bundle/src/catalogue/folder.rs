@@ -47,12 +47,12 @@ pub(super) fn entry_files(root: &Path) -> Result<Vec<EntryFile>, CatalogueFolder
     Ok(entries)
 }
 
-/// Texts of the entries, by name.
+/// Texts of the entries, sorted by file name.
 pub(super) fn entry_texts(root: &Path) -> Result<Vec<TextFile>, CatalogueFolderError> {
     texts(root, ENTRIES, TOML, MOST_TEXT)
 }
 
-/// Texts of the manifests, by name.
+/// Texts of the manifests, sorted by file name.
 pub(super) fn manifest_texts(root: &Path) -> Result<Vec<TextFile>, CatalogueFolderError> {
     texts(root, BUNDLES, JSON, MOST_MANIFEST)
 }
@@ -68,7 +68,7 @@ pub(super) fn entry_path(slug: &str) -> String {
     format!("{ENTRIES}/{slug}{TOML}")
 }
 
-/// Rejects a folder without entries and bundles.
+/// Rejects a folder that has neither a folder of entries nor a folder of bundles.
 pub(super) fn check_catalogue_folder(root: &Path) -> Result<(), CatalogueFolderError> {
     fs::metadata(root).map_err(CatalogueFolderError::file(root))?;
     if !root.join(ENTRIES).is_dir() && !root.join(BUNDLES).is_dir() {

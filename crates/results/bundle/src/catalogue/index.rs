@@ -8,7 +8,7 @@ use crate::manifest::Manifest;
 /// Schema of `index.json`.
 pub const INDEX_SCHEMA: &str = "taceva.catalogue-index/1";
 
-/// Entries and bundles while they are read.
+/// Index under construction: the entries and bundles read so far.
 #[derive(Default)]
 pub(super) struct Index {
     entries: Vec<Value>,

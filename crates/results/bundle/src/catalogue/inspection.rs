@@ -26,7 +26,7 @@ const INDEX: &str = "index.json";
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct CatalogueCheck {
-    /// Faults, by file.
+    /// Faults of the files of the catalogue.
     pub findings: Vec<CatalogueFinding>,
     /// Number of entries.
     pub entries: u64,
@@ -217,7 +217,7 @@ fn name_faults(path: &str, sensor: &Sensor, built_in: &[Sensor]) -> Vec<Catalogu
     faults
 }
 
-/// Manifests that are missing, rows whose number is not in their manifest, and duplicate rows.
+/// Faults of rows: missing manifests, rows whose number is not in their manifest, and duplicate rows.
 fn row_faults(
     path: &str,
     text: &str,
@@ -264,7 +264,7 @@ fn row_faults(
     faults
 }
 
-/// Entries with a name or alias of another entry or of a built-in sensor, apart from case and punctuation.
+/// Faults of entries that share a name or alias with another entry or a built-in sensor, apart from case and punctuation.
 fn alike(entries: &[EntryFile], built_in: &[Sensor]) -> Vec<CatalogueFinding> {
     let mut findings = Vec::new();
     for (at, EntryFile { path, sensor, .. }) in entries.iter().enumerate() {

@@ -22,7 +22,7 @@ pub struct AddRequest {
 }
 
 impl AddRequest {
-    /// Adds the bundle at `bundle` to the catalogue at `catalogue`, on one thread.
+    /// Request to add the bundle at `bundle` to the catalogue at `catalogue`, on one thread.
     pub fn new(bundle: &Path, catalogue: &Path) -> AddRequest {
         AddRequest {
             bundle: bundle.to_owned(),

@@ -1,4 +1,4 @@
-//! Limits of recordings with pictures.
+//! Tests of the limits of recordings with pictures.
 
 use super::*;
 

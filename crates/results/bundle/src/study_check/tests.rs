@@ -1,4 +1,4 @@
-//! Verdicts of the model and of a repeated fit.
+//! Tests of verdicts after a prediction by the model and after a repeated fit.
 
 use taceva_results::{Interval, Value};
 
@@ -20,7 +20,7 @@ fn report() -> EvaluationReport {
     report
 }
 
-/// Level and verdict of its claim, which states and tables give again.
+/// Level and verdict of the claim of [`report`], which states and tables reproduce.
 fn verdict(model: Result<PredictionCheck, Stop>, fit: Result<FitScores, Stop>) -> (Level, Verdict) {
     let report = report();
     let tables = TableScores {

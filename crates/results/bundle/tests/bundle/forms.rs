@@ -1,4 +1,4 @@
-//! Forms for other programs: generated from the manifest, and compared with it.
+//! Tests of the files for other programs, which are generated from the manifest and compared with it.
 
 use std::fs;
 
@@ -8,7 +8,7 @@ use taceva_files::seal::json::reseal;
 
 use super::Bench;
 
-/// Files that the manifest generates.
+/// Files generated from the manifest.
 const GENERATED: [&str; 6] = [
     "README.md",
     "CITATION.cff",
@@ -27,10 +27,10 @@ const WITH_CLAIMS: [&str; 4] = [
 
 /// Name of a bundle that JSON and YAML must escape.
 const NAME: &str = "Prüfstück \"7\": \\ #1";
-/// Name of an author that they must escape.
+/// Name of an author that JSON and YAML must escape.
 const AUTHOR: &str = "Zoë \"Z\" O'Néill";
 
-/// A finished bundle of a laboratory.
+/// Completes `request` for a finished bundle of a laboratory.
 fn finished(request: &mut BundleRequest) {
     let author = format!("{AUTHOR} <0000-0002-1825-0097>");
     request.authors = vec![author.parse().expect("an author")];
@@ -40,7 +40,7 @@ fn finished(request: &mut BundleRequest) {
     request.name = Some(NAME.to_owned());
 }
 
-/// Entity of the crate with this identifier.
+/// Entity of the RO-Crate with the identifier `id`.
 fn entity(bench: &Bench, id: &str) -> Value {
     let metadata = bench.json("ro-crate-metadata.json");
     let graph = metadata["@graph"].as_array().expect("entities");

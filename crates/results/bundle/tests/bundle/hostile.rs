@@ -22,7 +22,7 @@ const BUNDLES: u64 = 100;
 /// Length of a block of an archive.
 const BLOCK: usize = 512;
 
-/// Bytes with up to four changes: bits, cuts, repetitions, zeros and insertions.
+/// Copy of `bytes` with up to four changes: bits, cuts, repetitions, zeros and insertions.
 fn spoiled(bytes: &[u8], draws: &mut Draws) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
     for _ in 0..=draws.below(4) {
@@ -129,7 +129,7 @@ fn change(value: &mut Value, draws: &mut Draws) {
     value.clone_from(&words[draws.below(words.len())]);
 }
 
-/// A table of CSV with a changed cell.
+/// CSV table with a changed cell.
 fn with_cell(table: &[u8], draws: &mut Draws) -> Vec<u8> {
     let cells = [
         "", "NaN", "inf", "-1e308", "1e999", "\"", "x,y", "\u{0}", "é",
@@ -145,7 +145,7 @@ fn with_cell(table: &[u8], draws: &mut Draws) -> Vec<u8> {
     lines.join("\n").into_bytes()
 }
 
-/// Spoils one file of the bundle in the folder, and states its size and digest so that it is read.
+/// Spoils one file of the bundle in the folder. Updates its size and digest in the manifest, so that the file is read.
 fn spoil_file(bench: &Bench, whole: &BTreeMap<PathBuf, Vec<u8>>, draws: &mut Draws) {
     for (path, bytes) in whole {
         fs::write(path, bytes).expect("room");

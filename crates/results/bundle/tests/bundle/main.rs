@@ -1,4 +1,4 @@
-//! Bundles under many small changes: each is found, and none is a panic. Forms for other programs.
+//! Tests that every small change of a bundle is found without a panic, and tests of forms for other programs.
 
 mod forms;
 
@@ -23,12 +23,12 @@ struct Bench {
 }
 
 impl Bench {
-    /// A draft.
+    /// Draft bundle with default settings.
     fn new() -> Bench {
         Bench::of(|_| {})
     }
 
-    /// A bundle as `change` leaves its request and the files that it names.
+    /// Bundle whose request was altered by `change`.
     fn of(change: impl FnOnce(&mut BundleRequest)) -> Bench {
         let folder = tempfile::tempdir().expect("a folder");
         let at = |name: &str| folder.path().join(name);
@@ -84,7 +84,7 @@ impl Bench {
         fs::read_to_string(self.path(name)).expect("a text")
     }
 
-    /// States size and digest of every file as it is now in `manifest`, and seals it.
+    /// Updates size and digest of every file in `manifest`, seals the manifest and writes it.
     fn relist(&self, mut manifest: Value) {
         for file in manifest["files"].as_array_mut().expect("files") {
             let bytes = fs::read(self.path(file["path"].as_str().expect("a path"))).expect("there");
@@ -102,7 +102,7 @@ impl Bench {
     }
 }
 
-/// Counted numbers without order.
+/// Reproducible pseudo-random numbers.
 struct Draws(u64);
 
 impl Draws {

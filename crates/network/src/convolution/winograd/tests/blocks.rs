@@ -59,7 +59,7 @@ fn rectified(mut numbers: Numbers) -> Numbers {
     numbers
 }
 
-/// Errors of outputs and of input gradients for each of `BLOCKS`.
+/// Root mean square errors of outputs and of input gradients for each of `BLOCKS`.
 fn errors_by_block(case: &Case, numbers: &Numbers) -> [[f64; 2]; BLOCKS.len()] {
     let [outputs, twice, _] = case.definition(numbers);
     let gradients: Vec<f64> = twice.iter().map(|value| value / 2.0).collect();
