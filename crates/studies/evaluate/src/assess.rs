@@ -37,7 +37,7 @@ pub struct Context {
     pub is_seen: bool,
     /// True if the training part contains neighbours that resemble tested samples.
     pub are_neighbours_learnt: bool,
-    /// Facts of the fit behind the predictions. States do not contain them.
+    /// Facts of the fit behind the predictions. Stored states of scores do not contain them.
     pub fit: FitFacts,
     /// Scores of each recording, if several were joined.
     pub by_recording: Vec<RecordingScores>,
@@ -81,7 +81,7 @@ impl Context {
     }
 }
 
-/// Report of `rows`. `predictions` contains the numbers of predictions beyond the bounds of their model.
+/// Report of `rows`. `predictions` counts the predictions beyond the bounds of their model.
 ///
 /// # Errors
 /// [`EvaluateError::Scores`] for samples that the accumulators reject.
