@@ -9,7 +9,7 @@ use crate::neighbours::{Blocks, Resemblance};
 use crate::note::{Division, Neighbours, Note};
 use crate::recordings;
 
-/// Share of tested samples with a neighbour in the training part above which a division is marked.
+/// Share of tested samples with a neighbour in the training part above which the report has a note.
 const SHARE_BESIDE: f64 = 0.1;
 
 /// Samples that a division does not separate by default.
@@ -54,7 +54,7 @@ impl Grouping {
         }
     }
 
-    /// Groups of folds by this grouping.
+    /// Groups that each fold by this grouping keeps whole.
     pub(crate) fn folds(self) -> FoldGroups {
         match self {
             Grouping::Points => FoldGroups::Points,

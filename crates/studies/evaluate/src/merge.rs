@@ -37,7 +37,7 @@ pub(crate) fn evaluation_of(state: &ReadState) -> Result<Evaluation, EvaluateErr
     file.finish(evaluator)
 }
 
-/// Report with `parts`, the scores of each of `states`, the subject and provenance of the first state, and the phases of all.
+/// Report with the scores `parts`, one for each of `states`. Subject and provenance are from the first state, and phases from all states.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] without a state. [`EvaluateError::State`] for two states that name a phase for one metric.
@@ -83,7 +83,7 @@ pub fn merge_read(states: &[ReadState]) -> Result<(EvaluationReport, StateFile),
     merged(states.iter().map(Ok))
 }
 
-/// Merges states one by one. If `states` reads them, at most two are in memory.
+/// Merges states one by one. If `states` reads each state only when needed, at most two are in memory.
 fn merged<S: Borrow<ReadState>>(
     mut states: impl Iterator<Item = Result<S, EvaluateError>>,
 ) -> Result<(EvaluationReport, StateFile), EvaluateError> {

@@ -91,7 +91,7 @@ pub enum Note {
         recording: Option<String>,
         /// Median uncertainty over the samples with an uncertainty, in mm.
         median_mm: f64,
-        /// Greatest uncertainty, in mm.
+        /// Greatest uncertainty of any sample, in mm.
         most_mm: f64,
         /// Number of samples with a depth but without an uncertainty.
         without: usize,
@@ -104,9 +104,9 @@ pub enum Note {
         channels: Vec<String>,
         /// Number of samples with both rotations.
         samples: usize,
-        /// Mean angle, in degrees.
+        /// Mean angle over the samples, in degrees.
         mean: f64,
-        /// 95th percentile of the angle, in degrees.
+        /// 95th percentile of the angle over the samples, in degrees.
         most: f64,
     },
     /// The model was fitted on the scored part.
@@ -115,7 +115,7 @@ pub enum Note {
     FittedElsewhere(String),
     /// Frames of the test part that are also in the training or validation part.
     Copies {
-        /// Number of such frames.
+        /// Number of copied frames in the test part.
         copies: usize,
         /// Number of scored rows.
         of: usize,
@@ -131,7 +131,7 @@ pub enum Note {
     LeftOut {
         /// Part of the split that contains the samples.
         part: String,
-        /// Number of such samples.
+        /// Number of samples without a label or a frame.
         count: usize,
     },
     /// Shares of predictions beyond the bounds of the model, by channel.
@@ -159,7 +159,7 @@ pub enum Note {
         /// Number of rows.
         rows: usize,
     },
-    /// A caller's own model, with the knowledge of its training data.
+    /// A caller's own model, with the facts that are known about its training data.
     CallersModel(Learning),
     /// Predictions of a caller's own model were scored without clipping.
     Unbounded,

@@ -88,7 +88,7 @@ impl Cells {
 struct Place {
     before: usize,
     after: usize,
-    /// Share of the second cell, from 0 to 1.
+    /// Weight of the second cell in the interpolation, from 0 to 1.
     share: f64,
 }
 

@@ -47,7 +47,7 @@ impl<'a> Passes<'a> {
         }
     }
 
-    /// Accumulates `predicted`, which are the rows `rows` of `dataset`. For metrics of only the truth, also accumulates all other rows.
+    /// Accumulates `predicted`, the predictions of the rows `rows` of `dataset`. Metrics of only the truth also accumulate all other rows.
     pub(super) fn run(
         &self,
         dataset: &Dataset,
@@ -92,7 +92,7 @@ impl<'a> Passes<'a> {
         Ok(total)
     }
 
-    /// Scores of the predictions of one recording, whose indices in `rows` are `own`. Intervals use its contact points as clusters.
+    /// Scores of the predictions of one recording. `own` has the indices of its rows in `rows`. Intervals use its contact points as clusters.
     pub(super) fn of_recording(
         &self,
         dataset: &Dataset,

@@ -15,10 +15,10 @@ use crate::fit::FitRequest;
 use crate::task_view::window_of;
 use crate::work::Work;
 
-/// Word for the clusters: no two pairs are frames of the same motion.
+/// Name of the clusters in results. Each pair is a cluster, because no two pairs show the same motion.
 const CLUSTER: &str = "pair";
 
-/// Rows of a dataset between which an object moved.
+/// Two rows of a dataset, before and after a motion of the object.
 #[derive(Clone, Copy, Debug)]
 pub struct PosePair {
     /// Row before the motion.

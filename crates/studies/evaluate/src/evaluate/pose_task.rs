@@ -13,7 +13,8 @@ use super::task::without_cluster;
 use crate::error::EvaluateError;
 use crate::pose_definition::pose_definition;
 
-/// State of the poses in `samples`, a table of predictions of the channels of `task`. `clusters` has the cluster of every row of the dataset.
+/// Sums behind the scores of the poses in `samples`, which contains predictions of the channels of `task`. `clusters` has the cluster of every row of
+/// the dataset.
 pub(super) fn state(
     dataset: &Dataset,
     task: &Task,

@@ -45,7 +45,7 @@ impl EvaluateRequest {
         }
     }
 
-    /// Rejects a statement of independence that the order of the samples contradicts.
+    /// Rejects `is_independent` if neighbouring samples resemble each other.
     pub(super) fn check_independence(&self, dataset: &Dataset) -> Result<(), EvaluateError> {
         if !self.is_independent {
             return Ok(());

@@ -1,4 +1,4 @@
-//! Windows of frames within the clusters of a task.
+//! Windows, the sequences of frames that a model reads for one sample, within the clusters of a task.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -111,7 +111,8 @@ pub(crate) fn rows_read(
     Sequences::of(dataset, column, spec.channels.is_none()).read(rows, window)
 }
 
-/// Features by `spec` of `rows`, as [`extract`]: of single frames, or of windows of frames in the clusters of `column`.
+/// Features of `rows` by `spec`, computed by [`extract`]. Each row has the features of its frame, or of its window of frames in the clusters of
+/// `column`.
 ///
 /// # Errors
 /// Errors of [`extract`] and of [`rows_read`].

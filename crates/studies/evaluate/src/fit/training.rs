@@ -159,7 +159,7 @@ impl FitPlan<'_> {
             .collect()
     }
 
-    /// Input that the card states for a model that reads no input.
+    /// Input that the model card states for a model that reads no input.
     fn any_input(&self, spec: FeatureSpec) -> InputInfo {
         let unseen = FrameInfo {
             width: 1,
