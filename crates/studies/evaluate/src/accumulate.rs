@@ -109,7 +109,7 @@ pub struct Columns<'a> {
     pub dataset: &'a Dataset,
     /// Row numbers in the recording.
     pub rows: &'a [usize],
-    /// Group of every row of the recording, for intervals by group; `None` for other intervals.
+    /// Group of every row of the recording, for confidence intervals by group; `None` for other intervals.
     pub groups: Option<&'a [String]>,
 }
 

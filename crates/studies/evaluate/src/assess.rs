@@ -31,7 +31,7 @@ pub struct Context {
     pub subject: Subject,
     /// Inputs and settings.
     pub provenance: Provenance,
-    /// Notes for the reader, in order. Notes of earlier states are in `provenance`.
+    /// Notes for the reader, in order. Notes of states that were read are already in `provenance`.
     pub notes: Vec<Note>,
     /// True if the model was fitted on some of the rows, even if `provenance` does not show this.
     pub is_seen: bool,

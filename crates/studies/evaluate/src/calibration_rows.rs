@@ -113,7 +113,7 @@ impl PlannedRows {
     }
 }
 
-/// Path of the plans file of the run whose recordings folder contains `path`, and the number of the run's study, counted from 1.
+/// Plans file of the run that made the recording at `path`, and number of the study in this run, counted from 1.
 fn plans_of(path: &Path) -> Option<(std::path::PathBuf, usize)> {
     let recordings = path
         .parent()

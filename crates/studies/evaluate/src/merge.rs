@@ -13,7 +13,7 @@ use crate::row_ledger::{AllTaken, Taken};
 use crate::state_file::{ReadState, StateFile};
 use taceva_results::EvaluationReport;
 
-/// Report with the scores of several states of different plans, such as those of the phases of a run. No sums are merged.
+/// Report with the scores of several states whose plans differ, such as the states of the phases of a run. No sums are merged.
 ///
 /// # Errors
 /// [`EvaluateError::State`] for a file that is not a state of its plan. [`EvaluateError::Request`] without a file.

@@ -235,7 +235,7 @@ pub fn predicted_table(
     })
 }
 
-/// Other columns of `rows` that `score` can read.
+/// Columns of `rows` that `score` can read, except contact points and channels.
 fn beside(dataset: &Dataset, rows: &[usize]) -> Vec<(&'static str, Vec<Option<String>>)> {
     let column = |field: Field| {
         let texts = dataset.table().as_text(field.name())?;

@@ -45,7 +45,7 @@ pub(crate) fn names(dataset: &Dataset, rows: &[usize]) -> Option<Vec<String>> {
     (!joined.is_empty()).then(|| rows.iter().map(name).collect())
 }
 
-/// Digest of the recording of each of `rows`, as a label for intervals. Digests are the same in every shard, whatever the folder names.
+/// Digest of the recording of each of `rows`, to name the clusters of intervals. Digests are the same in every shard, even if folder names differ.
 pub(crate) fn labels(dataset: &Dataset, rows: impl Iterator<Item = usize>) -> Labels {
     let joined = dataset.recordings();
     let digests = joined.iter().map(|own| own.dataset().digest().to_string());
@@ -323,12 +323,12 @@ mod tests {
 
     use super::*;
 
-    /// Test note on a recording of presses to 1 mm, with the uncertainties `zeros_u_mm` of their zeros.
+    /// Test note on a recording of presses 1 mm deep, whose zeros have the standard uncertainties `zeros_u_mm`, in mm.
     fn note(channel: Channel, zeros_u_mm: &[Option<f64>]) -> Vec<Note> {
         pressed(channel, zeros_u_mm, depth_zeros)
     }
 
-    /// Result of `act` on such a recording.
+    /// Result of `act` on a recording of presses whose zeros have the standard uncertainties `zeros_u_mm`, in mm.
     fn pressed<T>(
         channel: Channel,
         zeros_u_mm: &[Option<f64>],

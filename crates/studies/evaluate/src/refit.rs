@@ -25,7 +25,7 @@ pub enum Refit {
 
 /// Repeats the fit of the model file at `model` on the recording in `datasets`. Split, seed and settings are read from the model's card.
 ///
-/// `provenance` of the results names the recording and the part. No plugin is loaded.
+/// `provenance`, which belongs to the results, names the recording and the part. No plugin is loaded.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] if no recording has the digest of the results, if the model was fitted on another recording, or if it was fitted on every sample

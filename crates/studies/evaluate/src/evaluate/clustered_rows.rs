@@ -88,7 +88,7 @@ impl<'a> ClusteredRows<'a> {
         )))
     }
 
-    /// Fits `fit` once for each of `folds` folds of clusters. Calls `each` with every row of `dataset` that this fit has not seen.
+    /// Fits a model by `fit` once for each of `folds` folds of clusters. Calls `each` with every row that this model has not seen.
     pub(super) fn predict_unseen(
         &self,
         dataset: &Dataset,

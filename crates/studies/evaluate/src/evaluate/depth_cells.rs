@@ -93,7 +93,7 @@ struct Place {
 }
 
 impl Place {
-    /// Place of the pixel with index `pixel` among `cells`, in a row or column of `pixels` pixels.
+    /// Place of the pixel with index `pixel` in a row or column of `pixels` pixels, which is divided into `cells` cells.
     fn of(pixel: usize, pixels: usize, cells: usize) -> Place {
         // Distances from the centre of the first cell, in units in which a cell is twice `pixels` long.
         let cell = 2 * pixels;

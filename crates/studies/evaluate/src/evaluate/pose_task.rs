@@ -59,7 +59,7 @@ pub(super) fn state(
     Ok(state)
 }
 
-/// Pose of a row from the six numbers on one side of `pairs`: 0 for the truth, 1 for the prediction.
+/// Pose of a row from the six pairs of numbers in `pairs`: the true pose if `side` is 0, the predicted one if it is 1.
 fn pose(row: u64, pairs: &[[f64; 2]], side: usize) -> Result<Pose, PoseError> {
     let part = |at: usize| pairs[at][side];
     let turned = RotationVector::new([part(3), part(4), part(5)]);

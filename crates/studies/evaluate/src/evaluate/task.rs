@@ -46,7 +46,7 @@ pub fn task_division(dataset: &Dataset, task: &Task) -> Result<String, EvaluateE
     })
 }
 
-/// Fits `fit` to the labels of the task called `name`, predicts the samples of unseen clusters, and scores them.
+/// Fits a model by `fit` to the labels of the task called `name`, predicts the samples of unseen clusters, and scores them.
 ///
 /// Without a stated split, [`task_division`] divides the samples. The model of classes is one of
 /// [`CLASSIFIERS`](crate::CLASSIFIERS); poses and depth maps need a model of numbers.

@@ -29,7 +29,7 @@ pub struct Predicted {
     pub(super) channels: Channels,
     pub(super) ids: Vec<String>,
     pub(super) points: Option<Vec<String>>,
-    /// Other fields of the rows, by column name.
+    /// Fields of the rows by column name, except contact points and channels.
     pub(super) beside: Vec<(&'static str, Vec<Option<String>>)>,
     pub(super) truth: Vec<Column>,
     /// Predictions that were clipped to the bounds of the model.

@@ -205,7 +205,7 @@ fn part_of(row: u64) -> u64 {
     row / CsvParts::ROWS
 }
 
-/// Parts that contain some of these rows.
+/// Numbers of the table parts that contain `rows`.
 pub(super) fn parts_of(rows: &Range<u64>) -> Range<u64> {
     match rows.is_empty() {
         true => 0..0,

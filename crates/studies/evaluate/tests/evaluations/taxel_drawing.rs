@@ -51,7 +51,7 @@ pub(crate) fn record(path: &Path, rows: u32) -> Dataset {
     record_changed(path, rows, |_, values| values)
 }
 
-/// As [`record`], with changed numbers.
+/// Like [`record`], with the signals of each row replaced by `change`.
 pub(crate) fn record_changed(
     path: &Path,
     rows: u32,

@@ -81,7 +81,7 @@ impl Dimension {
         }
     }
 
-    /// All other properties of a task, as text. Tasks with equal text form a pair.
+    /// All properties of a task except this dimension, as text. Tasks with equal text form a pair.
     pub(super) fn beside(&self, task: &Task) -> String {
         let split = match self.what {
             What::Split => None,
