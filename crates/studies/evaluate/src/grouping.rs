@@ -41,7 +41,7 @@ impl Grouping {
         }
     }
 
-    /// Kind of split with a single division by these groups.
+    /// Kind of a single split that keeps the groups whole.
     pub(crate) fn kind(self) -> SplitKind {
         match self {
             Grouping::Points => SplitKind::ByPoint,

@@ -37,7 +37,7 @@ pub enum Note {
     Clusters {
         /// Number of recordings with scored rows.
         recordings: usize,
-        /// Number of contact points in these recordings.
+        /// Number of contact points in the recordings with scored rows.
         points: usize,
         /// Minimum number of recordings for intervals by recording.
         least: usize,
@@ -102,7 +102,7 @@ pub enum Note {
     Rotation {
         /// The channels of the rotation.
         channels: Vec<String>,
-        /// Number of samples with both rotations.
+        /// Number of samples with a predicted and a true rotation.
         samples: usize,
         /// Mean angle over the samples, in degrees.
         mean: f64,
@@ -156,7 +156,7 @@ pub enum Note {
     EveryRow {
         /// Ids of the metrics.
         metrics: Vec<&'static str>,
-        /// Number of rows.
+        /// Number of rows of the dataset.
         rows: usize,
     },
     /// A caller's own model, with the facts that are known about its training data.
@@ -236,13 +236,13 @@ pub enum Note {
 /// Pairing of the rows of truth and predictions. Its `Display` ends the sentence "rows were paired".
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PairedBy {
-    /// By row number, because the tables share no key.
+    /// Rows were paired by number, because the tables share no key.
     Order,
-    /// By row number, as the caller requested.
+    /// Rows were paired by number, as the caller requested.
     ChosenOrder,
-    /// By equal labels in the index of a data frame.
+    /// Rows with equal labels in the index of a data frame were paired.
     Index,
-    /// By equal keys.
+    /// Rows with equal keys were paired.
     Key {
         /// Key column of the truth.
         truth: String,

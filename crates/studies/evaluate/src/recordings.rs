@@ -85,7 +85,7 @@ pub(crate) fn sections(dataset: &Dataset, rows: &[usize]) -> Vec<usize> {
     positions.into_iter().collect()
 }
 
-/// Splits `rows` into runs of one recording, in order. Each run contains the recording and the row numbers within it.
+/// Splits `rows` where the recording changes, in order. Each piece has its recording and the row numbers within this recording.
 pub(crate) fn runs<'a>(dataset: &'a Dataset, rows: &[usize]) -> Vec<(&'a Dataset, Vec<usize>)> {
     if dataset.recordings().is_empty() {
         return vec![(dataset, rows.to_vec())];

@@ -142,7 +142,7 @@ struct SampleRows<'a> {
 }
 
 impl SampleRows<'_> {
-    /// Rejects a table that lacks a channel or the name of a cluster, or contains an unknown word.
+    /// Rejects a table that lacks a channel or the name of a cluster, or contains an unknown phase or kind of grating.
     fn check(&self, plan: &MetricPlan) -> Result<(), String> {
         let mut channels = plan.channels().iter();
         if let Some(channel) =

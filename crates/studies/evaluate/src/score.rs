@@ -277,7 +277,7 @@ struct Said {
     shard: Option<Note>,
 }
 
-/// Scores and state of `evaluator`, after it has read the tables with these digests.
+/// Scores and state of `evaluator`, which has read the tables with the given digests.
 fn finished(
     evaluator: Evaluator,
     sensor: &SensorFile,

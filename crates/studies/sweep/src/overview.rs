@@ -75,7 +75,7 @@ fn check_metric(list: &TaskList, metric: &str) -> Result<(), SweepError> {
     })
 }
 
-/// Values to average.
+/// Values of one metric and channel to average.
 #[derive(Default)]
 struct Averaged {
     values: Vec<f64>,

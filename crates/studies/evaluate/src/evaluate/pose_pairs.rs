@@ -30,7 +30,7 @@ pub struct PosePair {
 /// Truth and prediction of x and y in mm, and of the turn about z in degrees.
 type Planar = [[f64; 2]; 3];
 
-/// Fits a model by `fit` to the planar poses of the task called `name`, predicts both poses of pairs that it has not seen, and scores the changes.
+/// Scores the changes of pose in the task called `name`. Models fitted by `fit` predict both planar poses of pairs that they have not seen.
 ///
 /// A change is a shift along x and y and a turn about z.
 ///

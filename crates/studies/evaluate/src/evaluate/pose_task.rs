@@ -1,4 +1,4 @@
-//! Scores of a task of poses of a dataset: a regressor predicts translation and rotation vector of clusters that it has not seen.
+//! Scores of a task of poses: a regressor predicts translations and rotation vectors of clusters that it has not seen.
 
 use std::collections::BTreeMap;
 

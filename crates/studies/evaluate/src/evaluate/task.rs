@@ -1,4 +1,4 @@
-//! Scores of a task of a dataset: a model predicts the labels of clusters that it has not seen.
+//! Scores of a task: a model predicts the labels of clusters that it has not seen.
 
 use std::collections::{BTreeMap, BTreeSet};
 

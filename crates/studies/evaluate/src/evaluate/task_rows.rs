@@ -1,4 +1,4 @@
-//! Scores of a task of classes on some rows of a dataset: each cluster is predicted by a model that has not seen it.
+//! Scores of a task of classes on some rows. A model that has not seen a cluster predicts its classes.
 
 use std::collections::BTreeMap;
 

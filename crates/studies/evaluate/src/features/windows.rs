@@ -94,7 +94,7 @@ fn required(window: FrameWindow, column: Option<&str>) -> Result<&str, EvaluateE
     })
 }
 
-/// Rows whose inputs `spec` reads for the samples in `rows`: these rows, or the rows of their windows in the clusters of `column`.
+/// Rows whose inputs `spec` reads for the samples in `rows`: these rows, or all rows of their windows of frames in the clusters of `column`.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for windows without `column`, or for a row without a cluster.

@@ -81,7 +81,7 @@ impl FitPlan<'_> {
         Ok(choice)
     }
 
-    /// Loss of each left-out sample, with features by `spec`.
+    /// Loss of each left-out sample, for a model on the features that `spec` describes.
     fn attempt(
         &self,
         estimator: &dyn ModelEstimator,

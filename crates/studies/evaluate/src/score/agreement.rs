@@ -39,7 +39,7 @@ enum Kind {
     Key,
     /// A text. An empty cell agrees with any text.
     Word,
-    /// A time in s, compared to the smaller number of decimals of both stamps.
+    /// A time stamp in s. Stamps are compared with the precision of the stamp that has fewer decimals.
     Stamp,
 }
 

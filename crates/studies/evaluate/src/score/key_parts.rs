@@ -196,7 +196,7 @@ impl ByKey<'_> {
     }
 }
 
-/// Compares by length, then by text. This is the numeric order for whole numbers, and a fixed order for other texts.
+/// Compares two keys by length, then by text. This is the numeric order for whole numbers, and a fixed order for other texts.
 pub(super) fn by_length(one: &str, other: &str) -> Ordering {
     one.len().cmp(&other.len()).then_with(|| one.cmp(other))
 }

@@ -70,7 +70,7 @@ impl Dimension {
         }
     }
 
-    /// Value of the dimension for a task; `None` if it does not apply.
+    /// Value of the dimension for a task; `None` if the dimension does not apply to the task.
     pub(super) fn word(&self, task: &Task) -> Option<String> {
         match &self.what {
             What::Split => task.split.clone(),

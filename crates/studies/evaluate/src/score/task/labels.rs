@@ -104,7 +104,7 @@ impl ClassNames {
         Ok(ClassNames::new(names, false))
     }
 
-    /// All names.
+    /// Names of all classes, in their order.
     pub(super) fn all(&self) -> &[String] {
         &self.names
     }
