@@ -14,14 +14,14 @@ use crate::state_file::StateFile;
 
 /// Rows that were scored.
 pub enum ScoredRows {
-    /// Accumulators, whose state can be merged with the state of other rows.
+    /// Accumulators, whose sums can be merged with those of other rows.
     Accumulated {
         /// Evaluator with the accumulators.
         evaluator: Box<Evaluator>,
         /// Rows that the evaluator has accumulated.
         taken: Vec<Taken>,
     },
-    /// A finished evaluation of several groups of rows, without a state.
+    /// A finished evaluation of several groups of rows, whose sums cannot be merged.
     Finished(Box<Evaluation>),
 }
 
@@ -56,11 +56,11 @@ pub struct FitFacts {
     pub notes: Vec<Note>,
 }
 
-/// A report, and its state if the state can be stored.
+/// A report, and the state file with its sums, if the sums can be stored.
 pub struct Assessed {
     /// Report of the evaluation.
     pub report: EvaluationReport,
-    /// State behind the report; `None` for a finished evaluation.
+    /// Sums behind the report; `None` for a finished evaluation.
     pub state: Option<StateFile>,
 }
 

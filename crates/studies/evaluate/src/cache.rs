@@ -171,7 +171,7 @@ impl Cache {
         self.folder.join(LAYOUT).join(PARTIAL)
     }
 
-    /// Removes the partial entries and the claims that killed runs left.
+    /// Removes the partial entries and the claim files that killed runs left.
     fn clear(&self) {
         self.cleared.call_once(|| {
             let partial = self.partial();

@@ -93,7 +93,7 @@ impl<'a> DepthPairs<'a> {
     }
 }
 
-/// Definition of `task`, with the size of a pixel that the dataset states.
+/// Definition of `task`, with the pixel size that the dataset states.
 pub(crate) fn definition(task: &Task) -> Result<DepthTask, EvaluateError> {
     let own = DepthTask::default();
     match task.maps.as_ref().and_then(|maps| maps.pixel_mm) {

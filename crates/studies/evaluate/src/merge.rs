@@ -1,4 +1,4 @@
-//! Merges the states of several shards, and computes their scores.
+//! Merges the state files of several shards, and computes their scores.
 
 use std::borrow::Borrow;
 use std::path::{Path, PathBuf};

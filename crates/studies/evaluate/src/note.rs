@@ -134,7 +134,7 @@ pub enum Note {
         /// Number of samples without a label or a frame.
         count: usize,
     },
-    /// Shares of predictions beyond the bounds of the model, by channel.
+    /// Shares of predictions beyond the label bounds of the model, by channel.
     Bounded(Vec<(String, f64)>),
     /// Shares of samples within 1.96 predicted standard deviations, by channel.
     Calibration(Vec<Coverage>),

@@ -190,7 +190,7 @@ pub fn reduced(dataset: &Dataset) -> Vec<Note> {
     })
 }
 
-/// Uncertainty of the heights relative to which depths are measured, for recordings whose depths refer to a fitted surface.
+/// Notes on the uncertainty of the heights relative to which depths are measured, for recordings whose depths refer to a fitted surface.
 pub fn depth_zeros(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, |recording, name| {
         depth_zero(recording, name).into_iter().collect()
@@ -213,7 +213,7 @@ fn depth_zero(recording: &Dataset, name: Option<&str>) -> Option<Note> {
     })
 }
 
-/// View that was used, for recordings whose samples have several pictures.
+/// Notes on the view that was used, for recordings whose samples have several pictures.
 pub(crate) fn viewed(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, |recording, name| {
         let note = recording.view().map(|view| Note::View {

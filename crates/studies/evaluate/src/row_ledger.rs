@@ -1,4 +1,4 @@
-//! Records the rows that a state has counted, so that no row is counted twice.
+//! Records the rows that a state file has counted, so that no row is counted twice.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -124,7 +124,7 @@ impl Taken {
     }
 }
 
-/// Rows that several states have counted, each with the path of its file.
+/// Rows that several state files have counted, each with the path of its file.
 #[derive(Debug, Default)]
 pub(crate) struct AllTaken {
     taken: Vec<(PathBuf, Taken)>,

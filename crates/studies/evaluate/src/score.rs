@@ -64,7 +64,7 @@ pub use task::{TaskRequest, TaskRule, TaskSpec, task_states};
 pub struct Scored {
     /// Scores and their provenance.
     pub report: EvaluationReport,
-    /// State that can be merged with the states of other tables.
+    /// Sums behind the scores, which can be merged with those of other tables.
     pub state: StateFile,
 }
 

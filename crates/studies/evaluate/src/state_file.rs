@@ -33,7 +33,7 @@ pub struct StateFile {
     pub(crate) subject: Subject,
     pub(crate) plan: WrittenPlan,
     pub(crate) provenance: Provenance,
-    /// Counts of predictions beyond the bounds of their model, if there are bounds.
+    /// Counts of predictions beyond the label bounds of their model, if there are bounds.
     #[serde(default, skip_serializing_if = "Bounded::is_empty")]
     pub(crate) bounded: Bounded,
     /// True if the model was fitted on some of the samples.

@@ -100,7 +100,7 @@ impl Cache {
     }
 }
 
-/// A folder that contained a recording when it was noted.
+/// A folder that contained a recording at the time of its note.
 #[derive(Clone, Debug, PartialEq)]
 struct Held {
     /// Digest of the bytes of the recording's header.

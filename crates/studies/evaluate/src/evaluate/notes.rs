@@ -51,7 +51,7 @@ impl Target {
     }
 }
 
-/// Note on a fit before rows were added, if any. The parts then contain more rows than at the fit.
+/// Note that rows were added after the fit, if any. The parts then contain more rows than at the fit.
 fn fitted_before(dataset: &Dataset, fitted_on: &str) -> Option<Note> {
     let mut stages = dataset.header().stages();
     let (_, rows) = stages.find(|(digest, _)| digest.to_string() == fitted_on)?;

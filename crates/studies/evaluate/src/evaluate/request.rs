@@ -73,7 +73,7 @@ pub enum ModelChoice {
 pub struct Evaluated {
     /// Scores and their provenance.
     pub report: EvaluationReport,
-    /// State that can be merged with the states of other recordings.
+    /// Sums behind the scores, which can be merged with those of other recordings.
     pub state: StateFile,
     /// Record of the division of the dataset; `None` if it was not divided.
     pub manifest: Option<SplitManifest>,

@@ -7,7 +7,7 @@ const UNDERSTOOD: &str = "expected NAME = VALUE or NAME != VALUE, joined by ` an
 /// Characters not allowed in an unquoted value. A term with such a value is rejected.
 const SIGNS: [char; 9] = ['=', '!', '<', '>', '&', '|', '(', ')', '"'];
 
-/// Condition that a task's setting, or the beginning of its key, equals a value or not.
+/// Condition that a property of a task, or the beginning of its key, equals a value or differs from it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Term {
     pub(super) name: String,
