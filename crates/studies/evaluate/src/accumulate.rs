@@ -14,8 +14,8 @@ use crate::recordings;
 /// Number of rows in a batch: large enough that merging is rare, small enough that a batch fits into the cache.
 pub(crate) const BATCH_ROWS: usize = 1 << 12;
 
-/// Metric of the frame rate and the field of view. Only frames at rest without contact have the full rate. The metric therefore reads times only from
-/// its phase, and all other fields from every row.
+/// Name of the metric of frame rate and field of view. The sensor reaches its full frame rate only at rest without contact. The metric therefore
+/// reads times only from the phase of the same name, and all other fields from every row.
 pub const OF_SENSOR: &str = "intrinsic";
 
 /// Source of rows with truth and prediction. Any thread may read any range.
@@ -68,7 +68,7 @@ fn accumulate_block(
     Ok(evaluator)
 }
 
-/// The plan restricted to `metrics`. Its states can be merged with states of the whole plan.
+/// The plan restricted to `metrics`. Sums computed by it can be merged with sums of the whole plan.
 ///
 /// # Errors
 /// [`EvaluateError::Scores`] for an unusable constant or setting.
@@ -109,7 +109,7 @@ pub struct Columns<'a> {
     pub dataset: &'a Dataset,
     /// Row numbers in the recording.
     pub rows: &'a [usize],
-    /// Group of every row of the recording, for intervals by group; `None` for other intervals.
+    /// Group of every row of the recording, for confidence intervals by group; `None` for other intervals.
     pub groups: Option<&'a [String]>,
 }
 

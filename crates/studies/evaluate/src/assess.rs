@@ -14,14 +14,14 @@ use crate::state_file::StateFile;
 
 /// Rows that were scored.
 pub enum ScoredRows {
-    /// Accumulators, whose state can be merged with the state of other rows.
+    /// Accumulators, whose sums can be merged with those of other rows.
     Accumulated {
         /// Evaluator with the accumulators.
         evaluator: Box<Evaluator>,
         /// Rows that the evaluator has accumulated.
         taken: Vec<Taken>,
     },
-    /// A finished evaluation of several groups of rows, without a state.
+    /// A finished evaluation of several groups of rows, whose sums cannot be merged.
     Finished(Box<Evaluation>),
 }
 
@@ -31,13 +31,13 @@ pub struct Context {
     pub subject: Subject,
     /// Inputs and settings.
     pub provenance: Provenance,
-    /// Notes for the reader, in order. Notes of earlier states are in `provenance`.
+    /// Notes for the reader, in order. Notes of states that were read are already in `provenance`.
     pub notes: Vec<Note>,
     /// True if the model was fitted on some of the rows, even if `provenance` does not show this.
     pub is_seen: bool,
     /// True if the training part contains neighbours that resemble tested samples.
     pub are_neighbours_learnt: bool,
-    /// Facts of the fit behind the predictions. States do not contain them.
+    /// Facts of the fit behind the predictions. Stored states of scores do not contain them.
     pub fit: FitFacts,
     /// Scores of each recording, if several were joined.
     pub by_recording: Vec<RecordingScores>,
@@ -56,11 +56,11 @@ pub struct FitFacts {
     pub notes: Vec<Note>,
 }
 
-/// A report, and its state if the state can be stored.
+/// A report, and the state file with its sums, if the sums can be stored.
 pub struct Assessed {
     /// Report of the evaluation.
     pub report: EvaluationReport,
-    /// State behind the report; `None` for a finished evaluation.
+    /// Sums behind the report; `None` for a finished evaluation.
     pub state: Option<StateFile>,
 }
 
@@ -81,7 +81,7 @@ impl Context {
     }
 }
 
-/// Report of `rows`. `predictions` contains the numbers of predictions beyond the bounds of their model.
+/// Report of `rows`. `predictions` counts the predictions beyond the bounds of their model.
 ///
 /// # Errors
 /// [`EvaluateError::Scores`] for samples that the accumulators reject.

@@ -1,10 +1,10 @@
-//! Shares of predictions beyond the bounds of a model, as counts that can be summed over parts and shards.
+//! Shares of predictions beyond the label bounds of a model, as counts that can be summed over parts and shards.
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-/// Number of predictions beyond the bounds and number of all predictions, by channel. A channel without bounds is absent.
+/// Number of predictions beyond the label bounds and number of all predictions, by channel. A channel without bounds is absent.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Bounded {
@@ -20,7 +20,7 @@ struct Counts {
 }
 
 impl Bounded {
-    /// Adds predictions of `channel`. Each item is true if the prediction is beyond the bounds.
+    /// Adds predictions of `channel`. Each item of `beyond` is true if the prediction is beyond the label bounds.
     pub fn add(&mut self, channel: &str, beyond: impl Iterator<Item = bool>) {
         let counts = self.counts.entry(channel.to_owned()).or_default();
         for is_beyond in beyond {
@@ -44,7 +44,7 @@ impl Bounded {
         self.counts.is_empty()
     }
 
-    /// Share of predictions of `channel` beyond the bounds; `None` without predictions.
+    /// Share of predictions of `channel` beyond the label bounds; `None` without predictions.
     pub fn share(&self, channel: &str) -> Option<f64> {
         let counts = self.counts.get(channel).filter(|counts| counts.of > 0)?;
         Some(counts.beyond as f64 / counts.of as f64)

@@ -86,8 +86,8 @@ impl Cache {
     }
 
     /// Shares this cache among many tasks, in this process and in other processes that use the folder. Features are computed for whole recordings,
-    /// whatever rows a task needs. One task computes them while other tasks wait. Each frame is then decoded once for each kind of features, if the
-    /// cache can store these features.
+    /// even if a task needs only some rows. One task computes them while other tasks wait. Each frame is then decoded once for each kind of features,
+    /// if the cache can store these features.
     #[must_use]
     pub fn of_many(self) -> Cache {
         Cache {
@@ -171,7 +171,7 @@ impl Cache {
         self.folder.join(LAYOUT).join(PARTIAL)
     }
 
-    /// Removes the partial entries and the claims that killed runs left.
+    /// Removes the partial entries and the claim files that killed runs left.
     fn clear(&self) {
         self.cleared.call_once(|| {
             let partial = self.partial();

@@ -12,10 +12,11 @@ use crate::error::EvaluateError;
 use crate::note::{Coverage, Note};
 use crate::predict::Predicted;
 
-/// Share of `predicted`, the rows `rows` of `dataset`, within 1.96 predicted standard deviations of the truth. Computed by channel, with an interval by contact
-/// point. `None` if the model predicts no standard deviation.
+/// Share of predictions within 1.96 predicted standard deviations of the truth, for each channel, with an interval by contact point. `predicted`
+/// holds the predictions of the rows `rows` of `dataset`. `None` if the model predicts no standard deviation.
 ///
-/// Only rows pressed in the light of the training data are counted, because the standard deviations are valid only in this light.
+/// Only rows for which `counts` is true are counted: presses in the light of the training data, because the standard deviations are valid only in
+/// this light.
 pub fn calibration(
     dataset: &Dataset,
     predicted: &Predicted,

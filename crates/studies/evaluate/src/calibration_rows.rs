@@ -1,4 +1,4 @@
-//! Rows that the plan of a run assigns to the fit.
+//! Rows of a recording that the plan of its run uses to fit the model.
 
 use std::fs;
 use std::path::Path;
@@ -10,11 +10,11 @@ use taceva_dataset::{Dataset, JoinedRecording};
 use crate::error::EvaluateError;
 use crate::run_layout::{PLANS, RECORDINGS};
 
-/// Note of a result with a planned split. A model card stores it, so that the split can be repeated.
+/// Text about the split of the plan, for a model card. A later evaluation repeats the split by this text.
 pub(crate) const NOTE: &str =
     "divided among the calibration presses of the run, as its plan does; all others are left out";
 
-/// Rows that a run divides, and the seed of this division.
+/// Rows that a run divides into training, validation and test parts, and the seed of this division.
 pub(crate) struct PlannedRows {
     /// Row numbers, ascending.
     pub(crate) rows: Vec<usize>,
@@ -42,7 +42,8 @@ struct Press {
 }
 
 impl PlannedRows {
-    /// Rows of `dataset` that its run divides. `None` if the dataset is not a recording of a run, or if the run's plan divides nothing.
+    /// Rows of `dataset` that its run divides into training, validation and test parts. `None` if the dataset is not a recording of a run, or if the
+    /// run's plan divides no rows.
     ///
     /// # Errors
     /// [`EvaluateError::RunFolder`] if the plan next to the recording cannot be read.
@@ -112,7 +113,7 @@ impl PlannedRows {
     }
 }
 
-/// Path of the plans file of the run whose recordings folder contains `path`, and the number of the run's study, counted from 1.
+/// Plans file of the run that made the recording at `path`, and number of the study in this run, counted from 1.
 fn plans_of(path: &Path) -> Option<(std::path::PathBuf, usize)> {
     let recordings = path
         .parent()

@@ -166,7 +166,8 @@ impl Watch {
     }
 }
 
-/// Removes claims in `folder` of processes that ended on this machine, and the marks with which these processes began to remove claims.
+/// Removes claims in `folder` of processes that ended on this machine, and the marker files with which these processes reserved the removal of a
+/// claim.
 ///
 /// No process waits for the claim of a finished task, so nothing else would remove it. Links and files that are not claims are kept.
 pub fn clear_dead_claims(folder: &Path) {

@@ -22,17 +22,17 @@ pub const CLASSIFIERS: [&str; 8] = [
 /// Number of entries at the start of [`CLASSIFIERS`] that cannot predict numbers.
 const CLASSIFIERS_ALONE: usize = 3;
 
-/// Setting of models that predict either numbers or classes.
+/// Name of the setting that switches a model between numbers and classes.
 const HEAD: &str = "head";
 
-/// Model for the task called `name` if the user names none.
+/// Default model for the task called `name`.
 pub fn usual_model(dataset: &Dataset, name: &str) -> &'static str {
     let mut tasks = dataset.tasks().iter().map(|own| own.task());
     let task = tasks.find(|task| task.name == name);
     usual(task.map_or(TaskKind::Class, |task| task.kind))
 }
 
-/// Model for labels of `kind` if the user names none.
+/// Default model for a task of `kind`.
 fn usual(kind: TaskKind) -> &'static str {
     match kind {
         TaskKind::Pose => "ridge",

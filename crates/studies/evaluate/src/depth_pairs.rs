@@ -34,7 +34,7 @@ impl<'a> DepthPairs<'a> {
         }
     }
 
-    /// Adds the true map of `row`, and the map that `predicted` computes. A row without a true map is counted.
+    /// Adds the true map of `row`, and the map that `predicted` computes. A row without a true map is skipped, and counted as left out.
     ///
     /// # Errors
     /// [`EvaluateError`] for a row without a cluster, for maps of different sizes, and the errors of `predicted`.
@@ -70,7 +70,8 @@ impl<'a> DepthPairs<'a> {
         Ok(())
     }
 
-    /// State of the task. `part` names the part of the dataset in an error, such as ` of the test part`.
+    /// Sums over all pairs, from which the scores of the task are computed. `part` names the part of the dataset in an error, such as ` of the test
+    /// part`.
     ///
     /// # Errors
     /// [`EvaluateError::Request`] without a map.
@@ -92,7 +93,7 @@ impl<'a> DepthPairs<'a> {
     }
 }
 
-/// Definition of `task`, with the size of a pixel that the dataset states.
+/// Definition of `task`, with the pixel size that the dataset states.
 pub(crate) fn definition(task: &Task) -> Result<DepthTask, EvaluateError> {
     let own = DepthTask::default();
     match task.maps.as_ref().and_then(|maps| maps.pixel_mm) {

@@ -23,7 +23,7 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// Effort of [`fit`](crate::fit).
+    /// Frames that [`fit`](crate::fit) decodes, and bytes that it stores.
     ///
     /// # Errors
     /// [`EvaluateError`] if the request is not valid.
@@ -34,7 +34,7 @@ impl Effort {
         Effort::of_fold(dataset, folds.first(request)?, None)
     }
 
-    /// Effort of [`evaluate`](crate::evaluate).
+    /// Frames that [`evaluate`](crate::evaluate) decodes, and bytes that it stores.
     ///
     /// # Errors
     /// [`EvaluateError`] if the request is not valid.
@@ -59,7 +59,7 @@ impl Effort {
         }
     }
 
-    /// Effort of one fit, and of predicting a part with the fitted model.
+    /// Frames and bytes of one fit, and of predicting `part` with the fitted model.
     fn of_fold(
         dataset: &Dataset,
         plan: FitPlan<'_>,

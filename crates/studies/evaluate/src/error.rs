@@ -25,7 +25,7 @@ pub enum EvaluateError {
     /// No model has this name.
     #[error(transparent)]
     UnknownModel(#[from] UnknownModel),
-    /// Features cannot be computed from these frames.
+    /// Features cannot be computed from the frames.
     #[error(transparent)]
     Features(#[from] FeatureError),
     /// The model cannot be written to a file.
@@ -43,7 +43,7 @@ pub enum EvaluateError {
     /// No metric has this name.
     #[error(transparent)]
     Metric(#[from] UnknownMetric),
-    /// A metric rejects these samples.
+    /// A metric rejects the samples.
     #[error("cannot score: {0}")]
     Scores(#[from] MetricError),
     /// The recording has no samples.

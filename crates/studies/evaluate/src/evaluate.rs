@@ -1,4 +1,4 @@
-//! Scores of a dataset, step by step: divide, fit, predict, score.
+//! Evaluates a model on a dataset, step by step: divide, fit, predict, score.
 
 mod callers_model;
 mod clustered_rows;

@@ -9,7 +9,7 @@ use crate::neighbours::{Blocks, Resemblance};
 use crate::note::{Division, Neighbours, Note};
 use crate::recordings;
 
-/// Share of tested samples with a neighbour in the training part above which a division is marked.
+/// Share of tested samples with a neighbour in the training part above which the report has a note.
 const SHARE_BESIDE: f64 = 0.1;
 
 /// Samples that a division does not separate by default.
@@ -41,7 +41,7 @@ impl Grouping {
         }
     }
 
-    /// Kind of split with a single division by these groups.
+    /// Kind of a single split that keeps the groups whole.
     pub(crate) fn kind(self) -> SplitKind {
         match self {
             Grouping::Points => SplitKind::ByPoint,
@@ -54,7 +54,7 @@ impl Grouping {
         }
     }
 
-    /// Groups of folds by this grouping.
+    /// Groups that each fold by this grouping keeps whole.
     pub(crate) fn folds(self) -> FoldGroups {
         match self {
             Grouping::Points => FoldGroups::Points,

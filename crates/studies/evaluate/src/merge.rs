@@ -1,4 +1,4 @@
-//! Merges the states of several shards, and computes their scores.
+//! Merges the state files of several shards, and computes their scores.
 
 use std::borrow::Borrow;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use crate::row_ledger::{AllTaken, Taken};
 use crate::state_file::{ReadState, StateFile};
 use taceva_results::EvaluationReport;
 
-/// Report with the scores of several states of different plans, such as those of the phases of a run. No sums are merged.
+/// Report with the scores of several states whose plans differ, such as the states of the phases of a run. No sums are merged.
 ///
 /// # Errors
 /// [`EvaluateError::State`] for a file that is not a state of its plan. [`EvaluateError::Request`] without a file.
@@ -37,7 +37,7 @@ pub(crate) fn evaluation_of(state: &ReadState) -> Result<Evaluation, EvaluateErr
     file.finish(evaluator)
 }
 
-/// Report with `parts`, the scores of each of `states`, the subject and provenance of the first state, and the phases of all.
+/// Report with the scores `parts`, one for each of `states`. Subject and provenance are from the first state, and phases from all states.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] without a state. [`EvaluateError::State`] for two states that name a phase for one metric.
@@ -83,7 +83,7 @@ pub fn merge_read(states: &[ReadState]) -> Result<(EvaluationReport, StateFile),
     merged(states.iter().map(Ok))
 }
 
-/// Merges states one by one. If `states` reads them, at most two are in memory.
+/// Merges states one by one. If `states` reads each state only when needed, at most two are in memory.
 fn merged<S: Borrow<ReadState>>(
     mut states: impl Iterator<Item = Result<S, EvaluateError>>,
 ) -> Result<(EvaluationReport, StateFile), EvaluateError> {

@@ -12,7 +12,7 @@ use crate::note::Neighbours;
 pub(crate) use blocks::Blocks;
 use sequence::Sequence;
 
-/// Minimum resemblance at which a division does not separate neighbours.
+/// Minimum resemblance at which a division does not separate neighbours: 0 for independent, 1 for equal neighbours.
 const LEAST: f64 = 0.3;
 /// Minimum resemblance, in standard deviations of the resemblance of independent samples. One standard deviation is about 1/√pairs.
 const DEVIATIONS: f64 = 3.5;

@@ -37,7 +37,7 @@ pub enum Note {
     Clusters {
         /// Number of recordings with scored rows.
         recordings: usize,
-        /// Number of contact points in these recordings.
+        /// Number of contact points in the recordings with scored rows.
         points: usize,
         /// Minimum number of recordings for intervals by recording.
         least: usize,
@@ -91,7 +91,7 @@ pub enum Note {
         recording: Option<String>,
         /// Median uncertainty over the samples with an uncertainty, in mm.
         median_mm: f64,
-        /// Greatest uncertainty, in mm.
+        /// Greatest uncertainty of any sample, in mm.
         most_mm: f64,
         /// Number of samples with a depth but without an uncertainty.
         without: usize,
@@ -102,11 +102,11 @@ pub enum Note {
     Rotation {
         /// The channels of the rotation.
         channels: Vec<String>,
-        /// Number of samples with both rotations.
+        /// Number of samples with a predicted and a true rotation.
         samples: usize,
-        /// Mean angle, in degrees.
+        /// Mean angle over the samples, in degrees.
         mean: f64,
-        /// 95th percentile of the angle, in degrees.
+        /// 95th percentile of the angle over the samples, in degrees.
         most: f64,
     },
     /// The model was fitted on the scored part.
@@ -115,7 +115,7 @@ pub enum Note {
     FittedElsewhere(String),
     /// Frames of the test part that are also in the training or validation part.
     Copies {
-        /// Number of such frames.
+        /// Number of copied frames in the test part.
         copies: usize,
         /// Number of scored rows.
         of: usize,
@@ -131,10 +131,10 @@ pub enum Note {
     LeftOut {
         /// Part of the split that contains the samples.
         part: String,
-        /// Number of such samples.
+        /// Number of samples without a label or a frame.
         count: usize,
     },
-    /// Shares of predictions beyond the bounds of the model, by channel.
+    /// Shares of predictions beyond the label bounds of the model, by channel.
     Bounded(Vec<(String, f64)>),
     /// Shares of samples within 1.96 predicted standard deviations, by channel.
     Calibration(Vec<Coverage>),
@@ -156,10 +156,10 @@ pub enum Note {
     EveryRow {
         /// Ids of the metrics.
         metrics: Vec<&'static str>,
-        /// Number of rows.
+        /// Number of rows of the dataset.
         rows: usize,
     },
-    /// A caller's own model, with the knowledge of its training data.
+    /// A caller's own model, with the facts that are known about its training data.
     CallersModel(Learning),
     /// Predictions of a caller's own model were scored without clipping.
     Unbounded,
@@ -236,13 +236,13 @@ pub enum Note {
 /// Pairing of the rows of truth and predictions. Its `Display` ends the sentence "rows were paired".
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PairedBy {
-    /// By row number, because the tables share no key.
+    /// Rows were paired by number, because the tables share no key.
     Order,
-    /// By row number, as the caller requested.
+    /// Rows were paired by number, as the caller requested.
     ChosenOrder,
-    /// By equal labels in the index of a data frame.
+    /// Rows with equal labels in the index of a data frame were paired.
     Index,
-    /// By equal keys.
+    /// Rows with equal keys were paired.
     Key {
         /// Key column of the truth.
         truth: String,

@@ -126,13 +126,13 @@ fn features_of(
     }
 }
 
-/// Column with the clusters for the windows of a model; `None` for a model without a task.
+/// Column with the clusters that windows of frames of a model never cross; `None` for a model without a task.
 fn clusters_of(model: &Model) -> Option<&str> {
     let task = model.card().provenance.task.as_ref();
     task.map(|task| task.cluster.as_str())
 }
 
-/// Rows whose inputs `model` reads to predict `rows`: these rows, or the rows of their windows.
+/// Rows whose inputs `model` reads to predict `rows`: these rows, or all rows of their windows of frames.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for a row without a cluster.
@@ -235,7 +235,7 @@ pub fn predicted_table(
     })
 }
 
-/// Other columns of `rows` that `score` can read.
+/// Columns of `rows` that `score` can read, except contact points and channels.
 fn beside(dataset: &Dataset, rows: &[usize]) -> Vec<(&'static str, Vec<Option<String>>)> {
     let column = |field: Field| {
         let texts = dataset.table().as_text(field.name())?;

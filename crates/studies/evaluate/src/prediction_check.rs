@@ -29,7 +29,7 @@ pub enum PredictionCheck {
         /// Number of predicted samples.
         samples: usize,
     },
-    /// Labels are equal, and predictions differ only as between two instruction sets.
+    /// Labels are equal. Predictions differ no more than between processors with different instruction sets.
     Near {
         /// Greatest difference, as a share of the label range.
         share: f64,
@@ -42,7 +42,8 @@ pub enum PredictionCheck {
 
 /// Compares `samples` with the recording in `datasets`, and with predictions for it by the model file at `model`.
 ///
-/// `provenance` of the results names the recording and the part. No plugin is loaded. If there are several folders, each is one recording, or all are joined.
+/// `provenance`, which belongs to the results, names the recording and the part. No plugin is loaded. If there are several folders, each is one
+/// recording, or all are joined.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] if no recording has the digest of the results, or if the model needs a plugin. [`EvaluateError::ModelFormat`] for a file that is
@@ -242,7 +243,7 @@ fn other_labels(dataset: &Dataset, rows: &[usize], samples: &Samples) -> Option<
         })
 }
 
-/// Predictions at `lines` of the table, compared with `predicted`.
+/// Compares the predictions in `lines` of the table with `predicted`.
 fn compared(
     dataset: &Dataset,
     predicted: &Predicted,

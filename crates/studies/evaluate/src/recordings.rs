@@ -45,7 +45,7 @@ pub(crate) fn names(dataset: &Dataset, rows: &[usize]) -> Option<Vec<String>> {
     (!joined.is_empty()).then(|| rows.iter().map(name).collect())
 }
 
-/// Digest of the recording of each of `rows`, as a label for intervals. Digests are the same in every shard, whatever the folder names.
+/// Digest of the recording of each of `rows`, to name the clusters of intervals. Digests are the same in every shard, even if folder names differ.
 pub(crate) fn labels(dataset: &Dataset, rows: impl Iterator<Item = usize>) -> Labels {
     let joined = dataset.recordings();
     let digests = joined.iter().map(|own| own.dataset().digest().to_string());
@@ -85,7 +85,7 @@ pub(crate) fn sections(dataset: &Dataset, rows: &[usize]) -> Vec<usize> {
     positions.into_iter().collect()
 }
 
-/// Splits `rows` into runs of one recording, in order. Each run contains the recording and the row numbers within it.
+/// Splits `rows` where the recording changes, in order. Each piece has its recording and the row numbers within this recording.
 pub(crate) fn runs<'a>(dataset: &'a Dataset, rows: &[usize]) -> Vec<(&'a Dataset, Vec<usize>)> {
     if dataset.recordings().is_empty() {
         return vec![(dataset, rows.to_vec())];
@@ -190,7 +190,7 @@ pub fn reduced(dataset: &Dataset) -> Vec<Note> {
     })
 }
 
-/// Uncertainty of the heights relative to which depths are measured, for recordings whose depths refer to a fitted surface.
+/// Notes on the uncertainty of the heights relative to which depths are measured, for recordings whose depths refer to a fitted surface.
 pub fn depth_zeros(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, |recording, name| {
         depth_zero(recording, name).into_iter().collect()
@@ -213,7 +213,7 @@ fn depth_zero(recording: &Dataset, name: Option<&str>) -> Option<Note> {
     })
 }
 
-/// View that was used, for recordings whose samples have several pictures.
+/// Notes on the view that was used, for recordings whose samples have several pictures.
 pub(crate) fn viewed(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, |recording, name| {
         let note = recording.view().map(|view| Note::View {
@@ -323,12 +323,12 @@ mod tests {
 
     use super::*;
 
-    /// Test note on a recording of presses to 1 mm, with the uncertainties `zeros_u_mm` of their zeros.
+    /// Test note on a recording of presses 1 mm deep, whose zeros have the standard uncertainties `zeros_u_mm`, in mm.
     fn note(channel: Channel, zeros_u_mm: &[Option<f64>]) -> Vec<Note> {
         pressed(channel, zeros_u_mm, depth_zeros)
     }
 
-    /// Result of `act` on such a recording.
+    /// Result of `act` on a recording of presses whose zeros have the standard uncertainties `zeros_u_mm`, in mm.
     fn pressed<T>(
         channel: Channel,
         zeros_u_mm: &[Option<f64>],

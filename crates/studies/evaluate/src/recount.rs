@@ -1,4 +1,4 @@
-//! Scores a table of samples by the plan of a state, to check the state against the samples from which it was summed.
+//! Scores a table of samples by the plan in a state file, and compares the sums with those in the file.
 
 mod phases;
 
@@ -32,7 +32,7 @@ const EXACT: [Field; 10] = [
 /// Column of predicted spacings, in mm.
 const PREDICTED_SPACING: &str = "spacing_predicted_mm";
 
-/// Scores of tables, computed by the plan and the facts of a state.
+/// Scores of tables, computed by the plan and the facts in a state file.
 #[derive(Debug)]
 pub struct Recount {
     /// Report with the subject and the provenance of the state.
@@ -44,7 +44,7 @@ pub struct Recount {
 }
 
 impl Recount {
-    /// Scores of `evaluator`, completed like the scores of the state `file`.
+    /// Scores of `evaluator`, with the subject and the provenance of the state `file`. `left_out` lists the metrics that were not computed.
     ///
     /// # Errors
     /// [`EvaluateError::Scores`] for samples that the accumulators reject.
@@ -142,7 +142,7 @@ struct SampleRows<'a> {
 }
 
 impl SampleRows<'_> {
-    /// Rejects a table that lacks a channel or the name of a cluster, or contains an unknown word.
+    /// Rejects a table that lacks a channel or the name of a cluster, or contains an unknown phase or kind of grating.
     fn check(&self, plan: &MetricPlan) -> Result<(), String> {
         let mut channels = plan.channels().iter();
         if let Some(channel) =

@@ -25,11 +25,11 @@ pub enum Refit {
 
 /// Repeats the fit of the model file at `model` on the recording in `datasets`. Split, seed and settings are read from the model's card.
 ///
-/// `provenance` of the results names the recording and the part. No plugin is loaded.
+/// `provenance`, which belongs to the results, names the recording and the part. No plugin is loaded.
 ///
 /// # Errors
-/// [`EvaluateError::Request`] if no recording has the digest of the results, if the model was fitted on another recording, or if it was fitted on every sample
-/// after a cross-validation. Otherwise errors of [`fit`](crate::fit()).
+/// [`EvaluateError::Request`] if no recording has the digest of the results, or the model was fitted on another recording. The same error rejects a
+/// model that was fitted on every sample after a cross-validation. Otherwise errors of [`fit`](crate::fit()).
 pub fn refit(
     model: &Path,
     datasets: &[PathBuf],

@@ -1,4 +1,4 @@
-//! Records the rows that a state has counted, so that no row is counted twice.
+//! Records the rows that a state file has counted, so that no row is counted twice.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -47,7 +47,7 @@ impl Taken {
         }
     }
 
-    /// Records some rows of an input with `of` rows as a shard, which may be empty.
+    /// Records `rows` as a shard, which may be empty, of an input with `of` rows in total.
     pub(crate) fn part_of(input: String, rows: Range<usize>, of: usize) -> Taken {
         let ranges = match rows.is_empty() {
             true => Vec::new(),
@@ -77,7 +77,7 @@ impl Taken {
         Some([own, self.of?])
     }
 
-    /// Removes the total if all rows are counted. The result is then not a shard.
+    /// Removes the number of rows of the input if all of them are counted. The result is then not a shard.
     fn whole_or_not(mut self) -> Taken {
         if let ([[0, end]], Some(of)) = (self.rows.as_slice(), self.of)
             && *end == of
@@ -101,7 +101,7 @@ impl Taken {
         }
     }
 
-    /// First row that both have counted, and the number of such rows; `None` without such a row.
+    /// First row that `self` and `other` have both counted, and the number of such rows; `None` without such a row.
     fn shared(&self, other: &Taken) -> Option<(usize, usize)> {
         if self.input != other.input {
             return None;
@@ -124,7 +124,7 @@ impl Taken {
     }
 }
 
-/// Rows that several states have counted, each with the path of its file.
+/// Rows that several state files have counted, each with the path of its file.
 #[derive(Debug, Default)]
 pub(crate) struct AllTaken {
     taken: Vec<(PathBuf, Taken)>,

@@ -68,7 +68,7 @@ pub struct Divided {
     pub split: Split,
     /// Note on neighbouring samples, if any.
     pub neighbours: Option<Note>,
-    /// Group of every row of the dataset, if intervals are by group. Rows without a group have the empty text.
+    /// Group of every row of the dataset, if confidence intervals are by group. Rows without a group have the empty text.
     pub groups: Option<Vec<String>>,
     /// True if no contact point repeats and neighbours do not resemble each other. Each sample then counts as one contact point.
     pub are_independent: bool,
@@ -264,7 +264,7 @@ pub fn require_samples(dataset: &Dataset) -> Result<(), EvaluateError> {
     }
 }
 
-/// Channels among `channels` with a label in at least one sample with a frame. Without such channels, all of `channels`.
+/// Channels with a label in at least one sample with a frame. If there are none, all of `channels`.
 pub(crate) fn seen_channels(dataset: &Dataset, channels: &Channels) -> Channels {
     let table = dataset.table();
     let is_seen = |channel: &&Channel| {
@@ -318,7 +318,7 @@ pub(crate) fn chosen_channels(
     Ok(chosen)
 }
 
-/// Suggestion for the unknown channel `name`, if it is a plane or similar to one of `known`.
+/// Suggestion for the unknown channel `name`: the two channels of a plane, such as `Fxy`, or the most similar channel in `known`.
 fn hint(name: &str, known: &[&str]) -> String {
     let mut planes = PLANES.into_iter();
     let plane = planes.find(|(plane, of, _)| {

@@ -4,7 +4,7 @@
 pub const PLANS: &str = "plans.json";
 /// Name of the folder of the recordings, which has one folder for each study.
 pub const RECORDINGS: &str = "recordings";
-/// Name of the folder of the states behind the scores. File names begin with the number of the study.
+/// Name of the folder of the state files behind the scores. File names begin with the number of the study.
 pub const STATES: &str = "states";
 /// Name of the folder of the models that the scene stores. File names begin with the number of the study.
 pub const MODELS: &str = "models";

@@ -64,7 +64,7 @@ pub use task::{TaskRequest, TaskRule, TaskSpec, task_states};
 pub struct Scored {
     /// Scores and their provenance.
     pub report: EvaluationReport,
-    /// State that can be merged with the states of other tables.
+    /// Sums behind the scores, which can be merged with those of other tables.
     pub state: StateFile,
 }
 
@@ -277,7 +277,7 @@ struct Said {
     shard: Option<Note>,
 }
 
-/// Scores and state of `evaluator`, after it has read the tables with these digests.
+/// Scores and state of `evaluator`, which has read the tables with the given digests.
 fn finished(
     evaluator: Evaluator,
     sensor: &SensorFile,

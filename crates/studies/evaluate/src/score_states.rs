@@ -1,17 +1,17 @@
-//! States of the scores of classes: ranks of the positive class, probabilities, and places of the true class.
+//! Sums for the scores of classes: ranks of the positive class, probabilities, and rank of the true class among the scores.
 
 use std::collections::BTreeMap;
 
 use taceva_tasks::{Probabilities, Ranking, TaskError, TaskState, TopK};
 
-/// States of the scores of the classes of a task.
+/// Sums for the scores of the classes of a task.
 pub(crate) struct ScoreStates {
     names: Vec<String>,
     /// Position of the positive class, if there is one.
     positive: Option<usize>,
     /// Scores of the positive class by cluster. Each cluster is sorted once.
     ranked: BTreeMap<String, RankedRows>,
-    /// States that need the scores of all classes; `None` if only the positive class has scores.
+    /// Sums that need the scores of all classes; `None` if only the positive class has scores.
     of_all: Option<(Probabilities, TopK)>,
 }
 
@@ -23,7 +23,7 @@ struct RankedRows {
 }
 
 impl ScoreStates {
-    /// Creates states of the classes `names` without samples. Without `are_all`, only the positive class has scores.
+    /// Creates empty sums for the classes `names`. If `are_all` is false, only the positive class has scores.
     ///
     /// # Errors
     /// [`TaskError`] for fewer than two names, equal names, or a positive class that is not among them.
@@ -73,7 +73,7 @@ impl ScoreStates {
         Ok(())
     }
 
-    /// Adds the states to the state of the task.
+    /// Adds these sums to the state of the task.
     ///
     /// # Errors
     /// [`TaskError`] for a score that is not finite.

@@ -1,4 +1,5 @@
-//! State of a shard as a file. Laboratories can exchange and merge such files. The scores equal those of one run over all samples.
+//! Files with the sums behind the scores of a shard. Laboratories can exchange and merge such files. The scores equal those of one run over all
+//! samples.
 
 mod plan;
 
@@ -32,7 +33,7 @@ pub struct StateFile {
     pub(crate) subject: Subject,
     pub(crate) plan: WrittenPlan,
     pub(crate) provenance: Provenance,
-    /// Counts of predictions beyond the bounds of their model, if there are bounds.
+    /// Counts of predictions beyond the label bounds of their model, if there are bounds.
     #[serde(default, skip_serializing_if = "Bounded::is_empty")]
     pub(crate) bounded: Bounded,
     /// True if the model was fitted on some of the samples.
@@ -84,8 +85,8 @@ impl StateFile {
         })
     }
 
-    /// Scores of `evaluator` after the samples of this state, with the share of predictions beyond bounds. The scores are marked if the model was fitted on the
-    /// samples.
+    /// Scores of `evaluator`, which has accumulated the samples of this state, with the shares of predictions beyond bounds. The scores are marked if
+    /// the model was fitted on the samples.
     ///
     /// # Errors
     /// [`EvaluateError::Scores`] for collected samples that the evaluator rejects.

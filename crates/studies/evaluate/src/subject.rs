@@ -3,7 +3,7 @@
 use taceva_dataset::{Dataset, SensorFile, Source};
 use taceva_results::Subject;
 
-/// Subject of a dataset.
+/// Sensor of a dataset, as the subject of a report.
 pub fn of(dataset: &Dataset) -> Subject {
     let header = dataset.header();
     let source = match header.source {
@@ -19,7 +19,7 @@ pub fn of(dataset: &Dataset) -> Subject {
     }
 }
 
-/// Subject of tables of numbers, as described by a sensor file.
+/// Sensor that `file` describes, as the subject of a report on tables of numbers.
 pub(crate) fn of_file(file: &SensorFile) -> Subject {
     let stated = |text: &Option<String>| text.clone().unwrap_or_else(|| "unknown".to_owned());
     Subject {

@@ -33,11 +33,11 @@ const COUNTED_ONCE: [&str; 2] = ["truth", "dataset"];
 #[non_exhaustive]
 pub struct TaskStates {
     schema: String,
-    /// Digests of the tables of each part, by their role: `truth`, `prediction`, or `dataset`.
+    /// Digests of the tables of each merged pair, by their role: `truth`, `prediction`, or `dataset`.
     tables: BTreeSet<BTreeMap<String, String>>,
     /// Origins of the samples, such as `recorded` and `simulated`.
     pub sources: BTreeSet<String>,
-    /// Pairing of the rows of each part, in words.
+    /// Description of the pairing of rows, for each merged pair of tables.
     paired: BTreeSet<String>,
     /// Shards whose rows are counted; `None` if all rows of the tables are counted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -91,7 +91,7 @@ impl TaskStates {
         self.shards.is_none()
     }
 
-    /// Digests of the tables of each part, by their role.
+    /// Digests of the tables of each merged pair, by their role.
     pub fn tables(&self) -> impl Iterator<Item = &BTreeMap<String, String>> {
         self.tables.iter()
     }

@@ -6,7 +6,7 @@ use taceva_models::{FeatureSpec, FrameWindow, ModelSettings, TaskCard};
 
 use crate::error::EvaluateError;
 
-/// Card entry of `task`.
+/// Entry of `task` in a model card.
 pub(crate) fn task_card(task: &Task) -> TaskCard {
     TaskCard {
         name: task.name.clone(),
@@ -17,7 +17,7 @@ pub(crate) fn task_card(task: &Task) -> TaskCard {
     }
 }
 
-/// Window that `settings` state; `None` for single frames.
+/// Window of consecutive frames that `settings` state; `None` for single frames.
 ///
 /// # Errors
 /// [`EvaluateError::Setting`] for a number out of range.

@@ -77,7 +77,7 @@ pub(crate) fn number(value: f64) -> Cell {
     Cell::Number(FormattedValue::number(value, None).value)
 }
 
-/// Formats both ends of `interval`, the interval of `value`.
+/// Formats both ends of `interval`, the confidence interval of `value`.
 pub(crate) fn ends(value: f64, interval: [f64; 2]) -> String {
     match FormattedValue::number(value, Some(interval)).interval {
         Some([low, high]) => format!("{low} … {high}"),

@@ -16,7 +16,7 @@ pub struct Collected {
     pub failed: usize,
     /// Number of tasks not run yet.
     pub missing: usize,
-    /// Digest of the table. For shards of two tables, the digest of the merged scores; empty while a shard is missing.
+    /// Digest of the table of results. For shards of two tables, digest of the merged scores; empty while a shard is missing.
     pub digest: String,
     /// True if the tasks were shards of two tables, and their states were merged.
     #[serde(default)]

@@ -25,7 +25,8 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Estimates the cost of the tasks at the indices `wanted` from tasks with the same configuration. Otherwise uses the mean of all timed tasks.
+    /// Estimates the cost of the tasks at the indices `wanted` from tasks with the same configuration. Without such tasks, uses the mean of all timed
+    /// tasks.
     ///
     /// # Errors
     /// [`SweepError`] if the folder cannot be read.

@@ -22,7 +22,7 @@ pub use labels_entry::LabelsEntry;
 pub use model_entry::ModelEntry;
 pub use tables::TablesEntry;
 
-/// Name of all metrics.
+/// Name that selects all metrics.
 pub(crate) const ALL_METRICS: &str = "all";
 
 /// A parsed and checked sweep file. Recordings are not read.

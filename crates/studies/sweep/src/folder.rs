@@ -91,7 +91,7 @@ impl SweepFolder {
         self.path.join(format!("evaluations/{key}.json"))
     }
 
-    /// State of the labels of a task, in a file next to its evaluation, for paired comparisons.
+    /// Path of a task's file with the sums behind its label scores, for paired comparisons.
     pub(crate) fn label_state(&self, key: &TaskKey) -> PathBuf {
         self.path.join(format!("evaluations/{key}.state"))
     }

@@ -40,8 +40,8 @@ impl Grid {
     /// once the recording exists.
     ///
     /// # Errors
-    /// [`SweepError`] for a grid that is empty or exceeds [`MOST_TASKS`](crate::MOST_TASKS), for an unknown model, setting or metric, and for an
-    /// unreadable recording or table.
+    /// [`SweepError`] for a grid that is empty or exceeds [`MOST_TASKS`](crate::MOST_TASKS). An unknown model, setting or metric, or an unreadable
+    /// recording or table, is also an error.
     pub fn of(
         file: &SweepFile,
         scenes: &[SceneRecording],

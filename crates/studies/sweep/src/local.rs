@@ -16,7 +16,7 @@ use crate::failure::Failure;
 use crate::folder::SweepFolder;
 use crate::task_list::TaskList;
 
-/// Runs tasks.
+/// Runner of tasks, with several workers in this process.
 #[derive(Clone, Copy)]
 pub struct Runner<'a> {
     /// Tasks of the sweep.

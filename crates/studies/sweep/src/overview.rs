@@ -14,7 +14,7 @@ use crate::error::SweepError;
 use crate::folder::SweepFolder;
 use crate::task_list::TaskList;
 
-/// Mean of `metric` for each combination of the names in `by`, channel by channel.
+/// Mean of `metric` over the tasks with equal values of the names in `by`, channel by channel.
 ///
 /// # Errors
 /// [`SweepError::Condition`] for a name that no task has; [`SweepError`] if results cannot be read.
@@ -75,7 +75,7 @@ fn check_metric(list: &TaskList, metric: &str) -> Result<(), SweepError> {
     })
 }
 
-/// Values to average.
+/// Values of one metric and channel to average.
 #[derive(Default)]
 struct Averaged {
     values: Vec<f64>,

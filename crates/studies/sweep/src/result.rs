@@ -54,7 +54,7 @@ pub(crate) struct ValidationError {
 }
 
 impl TaskResult {
-    /// An empty result of `key`.
+    /// An empty result of the task with the key `key`.
     pub(crate) fn new(key: TaskKey) -> TaskResult {
         TaskResult {
             schema: SCHEMA.to_owned(),

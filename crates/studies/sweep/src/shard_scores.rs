@@ -15,14 +15,14 @@ use crate::outcome::sealed;
 use crate::task_list::TaskList;
 use crate::times;
 
-/// File of the scores, byte for byte as printed by `taceva score --format json`, of channels or of tasks.
+/// Name of the file of merged scores. The file has the bytes that `taceva score --format json` prints.
 const RESULT: &str = "score.json";
 
 /// Merges the shards in `folder` into the file of scores, and writes the run times. While a shard is missing, an earlier file of scores is removed
 /// instead.
 ///
 /// # Errors
-/// [`SweepError`] for a state that was edited or belongs to other tables. Also if the folder cannot be written.
+/// [`SweepError`] if a state was edited or belongs to other tables, or if the folder cannot be written.
 pub(crate) fn join(folder: &SweepFolder, list: &TaskList) -> Result<Collected, SweepError> {
     let counts = list.counts(folder)?;
     let mut collected = Collected {

@@ -64,7 +64,7 @@ impl Task {
         format!("{}{}", self.model, settings.collect::<String>())
     }
 
-    /// Direction in which a score of this task is better.
+    /// Direction in which `score` improves.
     pub(crate) fn better(&self, score: &Score) -> Better {
         let unit = (score.unit != Unit::One).then(|| score.unit.symbol());
         match &self.labels {
@@ -81,7 +81,7 @@ impl Task {
         }
     }
 
-    /// Text of the split or of its default: as recorded, or by the clusters of a task.
+    /// Split as text. Without a split: `by clusters` if the task predicts labels, else `as recorded`.
     pub(crate) fn division(&self) -> &str {
         match (&self.split, &self.labels) {
             (Some(split), _) => split,

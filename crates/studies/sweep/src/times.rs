@@ -38,7 +38,7 @@ impl Timer {
         }
     }
 
-    /// Stores the time of `key`. A failed write is ignored, because no result needs the time.
+    /// Stores the time of the task with the key `key`. A failed write is ignored, because no result needs the time.
     pub(crate) fn keep(&self, folder: &SweepFolder, key: &TaskKey) {
         let size = |path: &std::path::Path| fs::metadata(path).map_or(0, |facts| facts.len());
         let time = TaskTime {

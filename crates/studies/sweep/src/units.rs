@@ -23,7 +23,7 @@ pub struct Unit {
     pub task: String,
     /// True if every limit is met.
     pub is_passed: bool,
-    /// Limits that the unit does not meet, with the values found. Without a result, the reason.
+    /// Limits that the unit does not meet, with the values found; or the reason why there is no result.
     pub broken: Vec<String>,
 }
 

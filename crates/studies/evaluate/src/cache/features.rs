@@ -98,8 +98,8 @@ impl Cache {
 }
 
 impl Cache {
-    /// Waits until no other task is computing the result of `key`. Returns `None` if no claim is possible, as in a read-only folder. The result may then be
-    /// computed twice.
+    /// Waits until no other task is computing the result of `key`, and claims the computation. Returns `None` if no claim is possible, as in a
+    /// read-only folder. The result may then be computed twice.
     fn turn(&self, key: &Key) -> Option<Claim> {
         let partial = self.partial();
         fs::create_dir_all(&partial).ok()?;
@@ -210,9 +210,9 @@ impl Kept for Features {
 /// Number of bytes read at a time.
 const BLOCK: usize = 1 << 16;
 
-/// Converts numbers to bytes, one block at a time.
+/// Reader that converts numbers to bytes, one block at a time.
 struct Bytes<'a> {
-    /// Values after the block.
+    /// Values that are not yet converted.
     values: &'a [f32],
     block: Vec<u8>,
     /// Number of bytes of the block that were already read.

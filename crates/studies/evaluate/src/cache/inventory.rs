@@ -152,7 +152,7 @@ fn is_shared(facts: &Metadata) -> bool {
 
 /// Entries that `pruning` removes at the time `now`. Entries that are too old come first, followed by entries beyond the size limit.
 ///
-/// Partial entries are removed, whatever the rules, if they are so old that no run can still be writing them.
+/// Partial entries that no run can still be writing, because they are too old, are always removed.
 pub fn pruned<'a>(
     entries: &'a [CacheEntry],
     pruning: &Pruning,

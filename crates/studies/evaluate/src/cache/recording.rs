@@ -14,12 +14,12 @@ use taceva_files::{STAGED, TemporaryFolder, parent_of, sync_folder};
 use super::tree::link;
 use super::{Cache, Key, remove};
 
-/// Maximum number of folders in a note.
+/// Maximum number of folders that are listed for one recording.
 const PLACES: usize = 8;
 
 impl Cache {
-    /// Links to `place`, which must not exist, the files of the recording noted under `key`. Returns `None` if no noted folder contains the unchanged
-    /// recording.
+    /// Takes the recording noted under `key`, and links its files to the folder `place`, which must not exist. Returns `None` if no noted folder
+    /// contains the unchanged recording.
     pub(super) fn take_recording(&self, key: &Key, place: &Path) -> Option<Dataset> {
         let folder = TemporaryFolder::create(parent_of(place), STAGED).ok()?;
         let beside = folder.path().join("recording");
@@ -58,7 +58,7 @@ impl Cache {
         None
     }
 
-    /// Notes under `key` that `place` contains the closed recording.
+    /// Lists `place` under `key` as a folder that contains the closed recording.
     pub(super) fn keep_recording(&self, key: &Key, place: &Path) {
         let Ok(place) = place.canonicalize() else {
             return;
@@ -100,7 +100,7 @@ impl Cache {
     }
 }
 
-/// A folder that contained a recording when it was noted.
+/// A folder that contained a recording at the time of its note.
 #[derive(Clone, Debug, PartialEq)]
 struct Held {
     /// Digest of the bytes of the recording's header.

@@ -16,7 +16,7 @@ use crate::predict::{self, Predictor, Target};
 use crate::rows::{DataPart, Divided, Need, chosen_channels, require_samples, usable};
 use taceva_results::ModelProvenance;
 
-/// Digest and training data of a model that is unknown to this program.
+/// Text in place of the unknown digest and training data of a caller's model.
 const UNKNOWN: &str = "unknown";
 
 /// Rows for a caller's own model: rows for the fit, and rows to score.
@@ -49,7 +49,7 @@ pub struct GivenRequest {
     pub part: Option<DataPart>,
     /// True if the model reads frames.
     pub reads_frames: bool,
-    /// True to score predictions of a model fitted now without clipping to the bounds of its labels.
+    /// True to score predictions without clipping. By default, predictions of a model fitted now are clipped to the bounds of its labels.
     pub is_unbounded: bool,
 }
 

@@ -16,7 +16,7 @@ use crate::work::Work;
 /// Place of a row in its cluster.
 pub(super) struct InCluster<'a> {
     pub(super) name: &'a str,
-    /// Number of the cluster.
+    /// Number of the cluster, counted from 0.
     number: usize,
     /// Number of rows of the cluster before this row.
     pub(super) place: u32,
@@ -47,7 +47,7 @@ pub(super) struct ClusteredRows<'a> {
 }
 
 impl<'a> ClusteredRows<'a> {
-    /// Clusters of `rows` by the names of all rows. Rows without a cluster are left out.
+    /// Sorts `rows` into clusters. `names` has the cluster of every row of the dataset. Rows without a cluster are left out.
     pub(super) fn of(names: &'a [Option<String>], rows: &[usize]) -> ClusteredRows<'a> {
         let mut lengths: BTreeMap<&str, (usize, u32)> = BTreeMap::new();
         let mut by_row = BTreeMap::new();
@@ -88,7 +88,7 @@ impl<'a> ClusteredRows<'a> {
         )))
     }
 
-    /// Fits `fit` once for each of `folds` folds of clusters. Calls `each` with every row of `dataset` that this fit has not seen.
+    /// Fits a model by `fit` once for each of `folds` folds of clusters. Calls `each` with every row that this model has not seen.
     pub(super) fn predict_unseen(
         &self,
         dataset: &Dataset,

@@ -8,7 +8,7 @@ use taceva_tasks::{TaskScores, TaskState};
 use crate::error::EvaluateError;
 use crate::predict::Predicted;
 
-/// Column with the clusters. All depths of one press are at one place.
+/// Column that names the clusters. All depths of one press are in one cluster.
 const CLUSTER: &str = "point_id";
 /// Channels of the place and the depth of the ball.
 const PLACE: [&str; 3] = ["Px", "Py", "Pz"];
@@ -16,7 +16,7 @@ const PLACE: [&str; 3] = ["Px", "Py", "Pz"];
 /// Presses of a ball whose contact shapes are scored.
 #[derive(Clone, Copy, Debug)]
 pub struct BallPresses<'a> {
-    /// Rows of the dataset.
+    /// Row numbers of the presses in the dataset.
     pub rows: &'a [usize],
     /// Radius of the ball, in mm.
     pub radius_mm: f64,
@@ -26,9 +26,9 @@ pub struct BallPresses<'a> {
     pub footprint: Footprint,
 }
 
-/// Scores of the depth maps of `of` as the task called `name`. `predicted` has one prediction for each of `of_rows`, ascending.
+/// Scores of depth maps of the ball presses `of`, as the task called `name`. `predicted` has one prediction for each of the ascending `of_rows`.
 ///
-/// A map is the spherical cap of the ball in the plane of x and y. The constant is the mean of the true maps.
+/// A map is the spherical cap of the ball in the plane of x and y. The constant prediction is the mean of the true maps.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for predictions without the place and depth of the ball, or without a prediction of the rows.
@@ -96,7 +96,7 @@ struct Shape<'a> {
     prediction: [f64; 3],
 }
 
-/// State of the depth maps of `shapes`.
+/// Sums behind the scores of the depth maps of `shapes`.
 fn shapes_of(grid: &Grid, shapes: &[Shape<'_>]) -> Result<DepthState, DepthError> {
     let [rows, columns] = grid.size();
     let mut mean = vec![0.0; rows * columns];
@@ -116,7 +116,7 @@ fn shapes_of(grid: &Grid, shapes: &[Shape<'_>]) -> Result<DepthState, DepthError
     Ok(state)
 }
 
-/// Pixels of the sensing area, and the ball.
+/// Pixel grid of the sensing area, with the radius of the ball.
 struct Grid {
     radius_mm: f64,
     pixel_mm: f64,

@@ -88,12 +88,12 @@ impl Cells {
 struct Place {
     before: usize,
     after: usize,
-    /// Share of the second cell, from 0 to 1.
+    /// Weight of the second cell in the interpolation, from 0 to 1.
     share: f64,
 }
 
 impl Place {
-    /// Place of the pixel with index `pixel` among `cells`, in a row or column of `pixels` pixels.
+    /// Place of the pixel with index `pixel` in a row or column of `pixels` pixels, which is divided into `cells` cells.
     fn of(pixel: usize, pixels: usize, cells: usize) -> Place {
         // Distances from the centre of the first cell, in units in which a cell is twice `pixels` long.
         let cell = 2 * pixels;

@@ -1,4 +1,4 @@
-//! Scores of a task of depth maps of a dataset: a model of numbers predicts the maps of clusters that it has not seen.
+//! Scores of a task of depth maps: a model of numbers predicts the maps of clusters that it has not seen.
 
 use taceva_core::{Channel, Channels, Column, Unit, shown};
 use taceva_dataset::{Dataset, Task};
@@ -18,9 +18,11 @@ use crate::predict::{Target, predict_target};
 use crate::rows::{DataPart, Divided};
 use crate::work::Work;
 
-/// State of the depth maps of `task`. Models fitted by `fit` predict the cells of the maps in the test part of each division of `split`.
+/// Sums behind the scores of the depth maps of `task`. Models fitted by `fit` predict the cells of the maps in the test part of each division of
+/// `split`.
 ///
-/// The constant is the mean map of the training part. Several divisions share no training part, so their constant is the mean of all maps.
+/// The constant prediction is the mean map of the training part. Several divisions share no training part, so their constant prediction is the mean
+/// of all maps.
 pub(super) fn state(
     dataset: &Dataset,
     task: &Task,

@@ -59,8 +59,8 @@ impl FoldedRows {
     }
 }
 
-/// Samples that [`evaluate`](crate::evaluate) scores if no split is named and the default is a cross-validation: the test part of the division. `None` if the
-/// default is a single division.
+/// Default division of `dataset`, if it is a cross-validation. Without a named split, [`evaluate`](crate::evaluate) scores its test part. `None` if
+/// the default is a single division.
 ///
 /// # Errors
 /// [`EvaluateError::Split`] if the default split cannot be made.

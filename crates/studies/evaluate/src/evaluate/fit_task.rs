@@ -14,8 +14,8 @@ use crate::work::Work;
 /// training, validation and test parts.
 ///
 /// # Errors
-/// [`EvaluateError`] for an unknown task, for a model that cannot predict a task of this kind, and for a split that separates samples of one cluster
-/// or fits several models. Otherwise errors of [`fit`].
+/// [`EvaluateError`] for an unknown task, or a model that cannot predict a task of this kind. A split that separates samples of one cluster, or fits
+/// several models, is also an error. Otherwise errors of [`fit`].
 pub fn fit_task(
     dataset: &Dataset,
     name: &str,

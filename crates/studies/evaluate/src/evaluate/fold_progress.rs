@@ -1,4 +1,4 @@
-//! Progress of one fold, in which each stage follows the name of the fold.
+//! Progress of one fold. The name of the fold precedes the name of each stage.
 
 use taceva_core::Progress;
 

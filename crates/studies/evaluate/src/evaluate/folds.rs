@@ -1,4 +1,4 @@
-//! Cross-validation. A model fitted on the other groups, or recordings, predicts each group of samples, or each recording.
+//! Cross-validation. Each group of samples, or each recording, is predicted by a model that was fitted on the others.
 
 mod by_group;
 mod common_model;
@@ -181,7 +181,7 @@ impl<'a> Folds<'a> {
         self.folds.into_iter().map(|fold| fold.divided).collect()
     }
 
-    /// Rejects a part, because cross-validation scores every sample.
+    /// Rejects a request to score one part, because cross-validation scores every sample.
     pub(crate) fn refuse_part(&self, request: &EvaluateRequest) -> Result<(), EvaluateError> {
         match request.part {
             None => Ok(()),
@@ -197,7 +197,7 @@ impl<'a> Folds<'a> {
         }
     }
 
-    /// Description of the split without shares, which do not apply to left-out recordings.
+    /// Description of the split without the shares of its parts, which do not apply to left-out recordings.
     fn words(&self) -> String {
         match self.are_recordings {
             true => "leave-one-recording-out".to_owned(),
@@ -205,7 +205,7 @@ impl<'a> Folds<'a> {
         }
     }
 
-    /// Adds the step that leaves out each fold to the plan.
+    /// Adds to `plan` the step that leaves out each fold.
     pub(super) fn explain(&self, plan: &mut Plan) {
         let count = self.folds.len();
         let what = match self.are_recordings {

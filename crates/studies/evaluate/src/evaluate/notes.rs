@@ -13,7 +13,7 @@ use crate::rows::DataPart;
 use taceva_results::ModelProvenance;
 
 impl Target {
-    /// True if the model was fitted on samples of the part.
+    /// True if the model was fitted on samples of the scored part.
     pub(super) fn is_seen(&self) -> bool {
         let divided = self.divided.as_ref();
         let is_fitted = divided.is_some_and(|divided| !divided.rows(DataPart::Train).is_empty());
@@ -51,7 +51,7 @@ impl Target {
     }
 }
 
-/// Note on a fit before rows were added, if any. The parts then contain more rows than at the fit.
+/// Note that rows were added after the fit, if any. The parts then contain more rows than at the fit.
 fn fitted_before(dataset: &Dataset, fitted_on: &str) -> Option<Note> {
     let mut stages = dataset.header().stages();
     let (_, rows) = stages.find(|(digest, _)| digest.to_string() == fitted_on)?;
@@ -59,7 +59,7 @@ fn fitted_before(dataset: &Dataset, fitted_on: &str) -> Option<Note> {
     (rows < now).then_some(Note::FittedBefore { rows, now })
 }
 
-/// Note if there are too few groups, or contact points `points`, for any interval.
+/// Note that the samples have too few groups for any interval, or too few contact points `points` if the split has no groups.
 pub(super) fn few_clusters(
     dataset: &Dataset,
     target: &Target,

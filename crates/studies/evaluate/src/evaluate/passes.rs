@@ -15,7 +15,7 @@ use crate::predict::{Predicted, truth};
 /// Metrics of a plan, grouped by the rows that they read.
 pub(super) struct Passes<'a> {
     plan: &'a MetricPlan,
-    /// Group of every row, for intervals by group; `None` for other intervals.
+    /// Group of every row, for confidence intervals by group; `None` for other intervals.
     groups: Option<&'a [String]>,
     /// Metrics that compare clipped predictions with the truth.
     of_predictions: Vec<&'static Metric>,
@@ -47,7 +47,7 @@ impl<'a> Passes<'a> {
         }
     }
 
-    /// Accumulates `predicted`, which are the rows `rows` of `dataset`. For metrics of only the truth, also accumulates all other rows.
+    /// Accumulates `predicted`, the predictions of the rows `rows` of `dataset`. Metrics of only the truth also accumulate all other rows.
     pub(super) fn run(
         &self,
         dataset: &Dataset,
@@ -92,7 +92,7 @@ impl<'a> Passes<'a> {
         Ok(total)
     }
 
-    /// Scores of the predictions of one recording, whose indices in `rows` are `own`. Intervals use its contact points as clusters.
+    /// Scores of the predictions of one recording. `own` has the indices of its rows in `rows`. Intervals use clusters within this recording.
     pub(super) fn of_recording(
         &self,
         dataset: &Dataset,

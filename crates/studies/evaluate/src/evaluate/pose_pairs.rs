@@ -15,10 +15,10 @@ use crate::fit::FitRequest;
 use crate::task_view::window_of;
 use crate::work::Work;
 
-/// Word for the clusters: no two pairs are frames of the same motion.
+/// Name of the clusters in results. Each pair is a cluster, because no two pairs show the same motion.
 const CLUSTER: &str = "pair";
 
-/// Rows of a dataset between which an object moved.
+/// Two rows of a dataset, before and after a motion of the object.
 #[derive(Clone, Copy, Debug)]
 pub struct PosePair {
     /// Row before the motion.
@@ -30,7 +30,7 @@ pub struct PosePair {
 /// Truth and prediction of x and y in mm, and of the turn about z in degrees.
 type Planar = [[f64; 2]; 3];
 
-/// Fits `fit` to the planar poses of the task called `name`, predicts both poses of pairs that it has not seen, and scores the changes.
+/// Scores the changes of pose in the task called `name`. Models fitted by `fit` predict both planar poses of pairs that they have not seen.
 ///
 /// A change is a shift along x and y and a turn about z.
 ///
@@ -103,7 +103,7 @@ pub fn evaluate_pose_pairs(
     Ok(state.scores())
 }
 
-/// Motion from one pose to the other on one side: 0 for the truth, 1 for the prediction. `row` is for messages.
+/// Motion from the pose `before` to the pose `after`: the true motion if `side` is 0, the predicted one if it is 1. Errors state `row`.
 fn change(row: u64, [before, after]: [&Planar; 2], side: usize) -> Result<Pose, PoseError> {
     let part = |part: usize| after[part][side] - before[part][side];
     let turned = RotationVector::new([0.0, 0.0, part(2)]);

@@ -1,4 +1,4 @@
-//! Scores of a task of poses of a dataset: a regressor predicts translation and rotation vector of clusters that it has not seen.
+//! Scores of a task of poses: a regressor predicts translations and rotation vectors of clusters that it has not seen.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,8 @@ use super::task::without_cluster;
 use crate::error::EvaluateError;
 use crate::pose_definition::pose_definition;
 
-/// State of the poses in `samples`, a table of predictions of the channels of `task`. `clusters` has the cluster of every row of the dataset.
+/// Sums behind the scores of the poses in `samples`, which contains predictions of the channels of `task`. `clusters` has the cluster of every row of
+/// the dataset.
 pub(super) fn state(
     dataset: &Dataset,
     task: &Task,
@@ -58,7 +59,7 @@ pub(super) fn state(
     Ok(state)
 }
 
-/// Pose of a row from the six numbers on one side of `pairs`: 0 for the truth, 1 for the prediction.
+/// Pose of a row from the six pairs of numbers in `pairs`: the true pose if `side` is 0, the predicted one if it is 1.
 fn pose(row: u64, pairs: &[[f64; 2]], side: usize) -> Result<Pose, PoseError> {
     let part = |at: usize| pairs[at][side];
     let turned = RotationVector::new([part(3), part(4), part(5)]);

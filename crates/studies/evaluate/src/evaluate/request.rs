@@ -45,7 +45,7 @@ impl EvaluateRequest {
         }
     }
 
-    /// Rejects a statement of independence that the order of the samples contradicts.
+    /// Rejects `is_independent` if neighbouring samples resemble each other.
     pub(super) fn check_independence(&self, dataset: &Dataset) -> Result<(), EvaluateError> {
         if !self.is_independent {
             return Ok(());
@@ -73,7 +73,7 @@ pub enum ModelChoice {
 pub struct Evaluated {
     /// Scores and their provenance.
     pub report: EvaluationReport,
-    /// State that can be merged with the states of other recordings.
+    /// Sums behind the scores, which can be merged with those of other recordings.
     pub state: StateFile,
     /// Record of the division of the dataset; `None` if it was not divided.
     pub manifest: Option<SplitManifest>,

@@ -1,4 +1,4 @@
-//! Scores of a task of a dataset: a model predicts the labels of clusters that it has not seen.
+//! Scores of a task: a model predicts the labels of clusters that it has not seen.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -46,7 +46,7 @@ pub fn task_division(dataset: &Dataset, task: &Task) -> Result<String, EvaluateE
     })
 }
 
-/// Fits `fit` to the labels of the task called `name`, predicts the samples of unseen clusters, and scores them.
+/// Fits a model by `fit` to the labels of the task called `name`, predicts the samples of unseen clusters, and scores them.
 ///
 /// Without a stated split, [`task_division`] divides the samples. The model of classes is one of
 /// [`CLASSIFIERS`](crate::CLASSIFIERS); poses and depth maps need a model of numbers.
@@ -91,7 +91,7 @@ pub fn evaluate_task(
     Ok(states)
 }
 
-/// State of a task of classes or of poses, from its predicted samples.
+/// Sums behind the scores of a task of classes or of poses, from its predicted samples.
 fn of_labels(
     dataset: &Dataset,
     task: &Task,
@@ -107,7 +107,7 @@ fn of_labels(
     }
 }
 
-/// The stated split, or the division of the task.
+/// The split `stated`, or the default division of `task` if no split is stated.
 fn split_of(dataset: &Dataset, task: &Task, stated: Option<&str>) -> Result<String, EvaluateError> {
     match stated {
         Some(split) => {
@@ -118,7 +118,7 @@ fn split_of(dataset: &Dataset, task: &Task, stated: Option<&str>) -> Result<Stri
     }
 }
 
-/// Evaluation that predicts the labels of the test part. Its metrics are not used.
+/// Request for an evaluation that predicts the labels of the test part. Its metrics are not used.
 fn request_of(fit: FitRequest, split: String) -> EvaluateRequest {
     EvaluateRequest {
         model: ModelChoice::Fit(FitRequest {
@@ -207,7 +207,7 @@ impl<'a> Predicted<'a> {
         Ok(found)
     }
 
-    /// State of the task.
+    /// Sums behind the scores of `task`, with remarks for its report.
     fn state(self, dataset: &Dataset, task: &Task) -> Result<TaskState, EvaluateError> {
         let mut state = TaskState::new(task.name.as_str(), task.kind.name(), task.cluster.as_str());
         let single = of_one_cluster(dataset, task, self.clusters);
@@ -250,7 +250,7 @@ fn of_one_cluster(dataset: &Dataset, task: &Task, clusters: &[Option<String>]) -
     words.collect()
 }
 
-/// State of the onsets of an event, in the order of time within each cluster.
+/// Sums behind the scores of the onsets of an event. Frames are sorted by time within each cluster.
 pub(super) fn onsets(
     clusters: BTreeMap<&str, Vec<Frame>>,
     task: &Task,
@@ -288,7 +288,7 @@ pub(super) fn check_split(split: &str, task: &Task) -> Result<(), EvaluateError>
     )))
 }
 
-/// Position of a class from its number in a channel.
+/// Index of the class of `task` whose channel value is `number`.
 pub(super) fn position(number: f64, task: &Task) -> Result<u32, EvaluateError> {
     let classes = (0_u32..).take(task.names.len());
     let found = classes

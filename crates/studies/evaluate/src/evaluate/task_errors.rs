@@ -10,12 +10,13 @@ pub(super) struct TaskMistake<'a> {
     /// Row of the dataset.
     pub(super) row: usize,
     pub(super) cluster: &'a str,
-    /// Position of the true class.
+    /// Index of the true class among the classes of the task.
     pub(super) truth: u32,
     pub(super) predicted: u32,
 }
 
-/// Adds the wrong samples to the evidence of `state`. The error of a sample is the number of samples with the same true and predicted class.
+/// Adds the wrong samples to the worst samples that `state` lists. The error of a sample is the number of samples with the same true and predicted
+/// class.
 pub(super) fn add(
     state: &mut TaskState,
     wrong: Vec<TaskMistake<'_>>,

@@ -1,4 +1,4 @@
-//! Scores of a task of classes on some rows of a dataset: each cluster is predicted by a model that has not seen it.
+//! Scores of a task of classes on some rows. A model that has not seen a cluster predicts its classes.
 
 use std::collections::BTreeMap;
 
@@ -24,7 +24,7 @@ pub struct TaskRows<'a> {
     pub rate_hz: f64,
 }
 
-/// Fits `fit` to the classes of the task called `name` in the rows `of`, predicts clusters that it has not seen, and scores them.
+/// Scores the task called `name` in the rows that `of` lists. Models fitted by `fit` predict the classes of clusters that they have not seen.
 ///
 /// # Errors
 /// [`EvaluateError`] for an unknown task, a model that does not predict classes, fewer than two clusters, and for the errors of a fit.

@@ -17,7 +17,7 @@ pub struct FeatureTable {
     pub spec: FeatureSpec,
 }
 
-/// Features of `rows` by `settings`, in this order. They equal the input of a model chosen by name. The default is 32×32 gray.
+/// Features of `rows`, in this order, by `settings`; the default is 32×32 gray. A built-in model with these settings reads the same features.
 ///
 /// # Errors
 /// [`EvaluateError`] for an unknown setting of features, for rows without a frame or without signals, and if the dataset cannot be read.

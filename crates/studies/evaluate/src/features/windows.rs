@@ -1,4 +1,4 @@
-//! Windows of frames within the clusters of a task.
+//! Windows, the sequences of frames that a model reads for one sample, within the clusters of a task.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -94,7 +94,7 @@ fn required(window: FrameWindow, column: Option<&str>) -> Result<&str, EvaluateE
     })
 }
 
-/// Rows whose inputs `spec` reads for the samples in `rows`: these rows, or the rows of their windows in the clusters of `column`.
+/// Rows whose inputs `spec` reads for the samples in `rows`: these rows, or all rows of their windows of frames in the clusters of `column`.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for windows without `column`, or for a row without a cluster.
@@ -111,7 +111,8 @@ pub(crate) fn rows_read(
     Sequences::of(dataset, column, spec.channels.is_none()).read(rows, window)
 }
 
-/// Features by `spec` of `rows`, as [`extract`]: of single frames, or of windows of frames in the clusters of `column`.
+/// Features of `rows` by `spec`, computed by [`extract`]. Each row has the features of its frame, or of its window of frames in the clusters of
+/// `column`.
 ///
 /// # Errors
 /// Errors of [`extract`] and of [`rows_read`].

@@ -10,14 +10,14 @@ use crate::error::EvaluateError;
 use crate::features::kinds;
 use crate::work::Work;
 
-/// Divisor of the number of groups: one group in this many is left out.
+/// One group in this many is left out.
 const LEFT_OUT_OF: usize = 3;
 /// Minimum number of left-out contact points for an estimate of the spread. With fewer points, neighbouring samples form groups.
 const POINTS_LEAST: usize = 3;
 /// Number of groups of neighbouring samples if no contact point is known.
 const RUNS: usize = 10;
 
-/// Division of the training part: positions for the fit, and positions to score with their independent groups.
+/// Samples of the training part by position: samples for the fit, and left-out samples with their independent groups.
 struct Parts {
     learnt: Vec<usize>,
     left_out: Vec<usize>,
@@ -81,7 +81,7 @@ impl FitPlan<'_> {
         Ok(choice)
     }
 
-    /// Loss of each left-out sample, with features by `spec`.
+    /// Loss of each left-out sample, for a model on the features that `spec` describes.
     fn attempt(
         &self,
         estimator: &dyn ModelEstimator,

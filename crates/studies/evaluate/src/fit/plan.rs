@@ -141,7 +141,7 @@ impl<'a> FitPlan<'a> {
         self.model.reads_features() && self.features.channels.is_none()
     }
 
-    /// Features of frames or signals. If some settings are still to be chosen, the preferred features of the model.
+    /// Features of frames or signals. If some settings are still to be chosen, these are the preferred features of the model.
     pub fn features(&self) -> FeatureSpec {
         self.features
     }

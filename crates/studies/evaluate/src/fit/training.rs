@@ -52,7 +52,7 @@ impl FitPlan<'_> {
         })
     }
 
-    /// Features by `spec` of the frames or signals of the training part, followed by those of the validation part.
+    /// Features that `spec` describes, of the frames or signals of the training part, followed by those of the validation part.
     pub(super) fn see(&self, spec: FeatureSpec, work: Work<'_>) -> Result<Seen, EvaluateError> {
         // Always both parts, because stored features are found by their rows.
         let rows = [&self.train[..], &self.validation].concat();
@@ -159,7 +159,7 @@ impl FitPlan<'_> {
             .collect()
     }
 
-    /// Input that the card states for a model that reads no input.
+    /// Input that the model card states for a model that reads no input.
     fn any_input(&self, spec: FeatureSpec) -> InputInfo {
         let unseen = FrameInfo {
             width: 1,

@@ -22,7 +22,7 @@ pub struct Neighbours {
     pub channel: String,
     /// One minus the ratio of the mean squared rank difference of neighbours to that of random pairs: 0 for independent, 1 for equal neighbours.
     pub resemblance: f64,
-    /// Number of samples after which two samples hardly resemble each other.
+    /// Distance, in samples, at which two samples hardly resemble each other.
     pub lag: usize,
     /// Order that defines neighbours.
     pub order: SampleOrder,

@@ -6,7 +6,7 @@ use taceva_core::{counted, shown};
 use taceva_metrics::LEAST_CLUSTERS;
 use taceva_models::{FoldGroups, FoldSpec};
 
-/// Numbers of contact points or groups, too few for any interval. `Display` writes the sentence, with a remedy that applies.
+/// Number of contact points or groups, which is too few for any interval. `Display` writes the sentence, with a remedy that applies.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct FewClusters {
@@ -16,7 +16,7 @@ pub struct FewClusters {
     pub scored: usize,
     /// Number of groups in the dataset.
     pub all: usize,
-    /// True if intervals would use contact points as clusters, if these were named.
+    /// True if intervals would use contact points as clusters once the dataset names them.
     pub takes_points: bool,
 }
 

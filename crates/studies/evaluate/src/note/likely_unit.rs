@@ -4,13 +4,13 @@ use taceva_results::{Interval, Score};
 
 use super::Note;
 
-/// Metric with the line through predictions over truth.
+/// Name of the metric that fits a line to the predictions against the truth.
 const LINE: &str = "linearity";
 
 /// Ratios of units with neighbouring prefixes, such as m and mm.
 const RATIOS: [f64; 2] = [1e-3, 1e3];
 
-/// Greatest factor between an end of the interval of the slope and one of [`RATIOS`].
+/// Greatest factor by which an end of the slope's interval may differ from one of [`RATIOS`].
 const FACTOR: f64 = 1.5;
 
 impl Note {
@@ -44,7 +44,8 @@ fn likely_unit(line: &Score) -> Option<Note> {
     })
 }
 
-/// Range of the truth, which is full scale; NaN if all predictions lie on the line. `None` without a linearity and its greatest deviation.
+/// Range of the truth: the greatest deviation from the line, divided by the linearity. NaN if all predictions lie on the line. `None` if either
+/// number is missing.
 fn range_of_truth(line: &Score) -> Option<f64> {
     let greatest = line.variant("greatest_deviation")?.value.number()?;
     Some(greatest / line.value.number()?)

@@ -7,7 +7,7 @@ use taceva_results::OPTIMISTIC;
 
 use super::{Independence, Learning, Note, division};
 
-/// Number of recordings below which the note states their number, because Student's t then widens the interval.
+/// Minimum number of recordings for which the note omits their number. With fewer recordings, Student's t widens the interval.
 const CLUSTERS_MANY: usize = 10;
 
 impl fmt::Display for Note {
@@ -249,7 +249,7 @@ impl fmt::Display for Note {
     }
 }
 
-/// Name of a recording, as the prefix of a note on it.
+/// Prefix of a note on one recording: its name and a colon; empty without a name.
 fn of(recording: &Option<String>) -> String {
     recording
         .as_ref()

@@ -10,7 +10,7 @@ use crate::error::EvaluateError;
 use crate::note::Note;
 use crate::rows::DataPart;
 
-/// Predictions of one channel that the model clipped to one of its bounds.
+/// Predictions of one channel that the model clipped to one of its label bounds.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct AtBound {
@@ -29,10 +29,10 @@ pub struct Predicted {
     pub(super) channels: Channels,
     pub(super) ids: Vec<String>,
     pub(super) points: Option<Vec<String>>,
-    /// Other fields of the rows, by column name.
+    /// Fields of the rows by column name, except contact points and channels.
     pub(super) beside: Vec<(&'static str, Vec<Option<String>>)>,
     pub(super) truth: Vec<Column>,
-    /// Predictions that were clipped to the bounds of the model.
+    /// Predictions that were clipped to the label bounds of the model.
     pub(super) prediction: Vec<Column>,
     /// Predictions that were not clipped.
     pub(super) unbounded: Vec<Column>,
@@ -196,7 +196,7 @@ impl Predicted {
         &self.truth
     }
 
-    /// Predictions, clipped to the bounds of the model.
+    /// Predictions, clipped to the label bounds of the model.
     pub fn prediction(&self) -> &[Column] {
         &self.prediction
     }

@@ -9,7 +9,7 @@ use crate::error::EvaluateError;
 /// Suffixes of the columns of a pose: translation in mm, then the quaternion.
 const POSE: [&str; 7] = ["x", "y", "z", "qx", "qy", "qz", "qw"];
 
-/// Task of predictions, with the clusters and the probabilities of the rows.
+/// Task that a model predicts, with the clusters and the probabilities of the rows.
 #[derive(Debug)]
 pub(super) struct TaskCells {
     card: TaskCard,

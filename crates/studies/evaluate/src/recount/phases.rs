@@ -12,7 +12,7 @@ use crate::error::EvaluateError;
 use crate::merge::{evaluation_of, report_of};
 use crate::state_file::ReadState;
 
-/// Further fields that the table of a run stores without loss for every row.
+/// Fields, in addition to [`EXACT`], that the table of a run stores without loss for every row.
 const OF_RUNS: [Field; 4] = [
     Field::PredictedSpacing,
     Field::Stamp,
@@ -20,12 +20,12 @@ const OF_RUNS: [Field; 4] = [
     Field::FrameDigest,
 ];
 
-/// Reason for a metric whose fields the table lacks.
+/// Reason to skip a metric: the table lacks its fields.
 const LACKING: &str = "the table of samples lacks a field of this metric";
-/// Reason for the metrics of a state that does not name a single phase of the table.
+/// Reason to skip the metrics of a state that does not name a single phase of the table.
 const NO_PHASE: &str =
     "the state and the table of samples share no single phase of the protocol; run the scene again";
-/// Reason for the metrics of a state whose sums differ from those of its phase.
+/// Reason to skip the metrics of a state whose sums differ from those of its phase.
 const OTHER_SUMS: &str = "the rows of this phase do not give the sums of the state";
 /// Greatest number of rows that are read for all states together.
 const MOST_READ: usize = 1 << 28;
@@ -79,7 +79,7 @@ fn skip(metric: &Metric, reason: &str) -> Skip {
     }
 }
 
-/// Message for a table with too many rows for this number of states, each of which reads the table; `None` otherwise.
+/// Error message if `states` readings of the table exceed [`MOST_READ`] rows; `None` otherwise.
 fn excess(samples: &Samples, states: usize) -> Option<String> {
     let rows = samples.rows();
     (rows.saturating_mul(states) > MOST_READ).then(|| {

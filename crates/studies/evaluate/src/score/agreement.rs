@@ -39,7 +39,7 @@ enum Kind {
     Key,
     /// A text. An empty cell agrees with any text.
     Word,
-    /// A time in s, compared to the smaller number of decimals of both stamps.
+    /// A time stamp in s. Stamps are compared with the precision of the stamp that has fewer decimals.
     Stamp,
 }
 
@@ -51,7 +51,7 @@ pub(super) struct Matching {
 }
 
 impl Matching {
-    /// Pairs rows with the same key in `by`, or with the same number if `by` is `None`, for tables with these headers.
+    /// Pairing by the key `by`, or by row number if `by` is `None`, with the columns that both tables must agree in.
     pub(super) fn of(
         [truth, prediction]: [&CsvTable; 2],
         keys: &RowKeys,

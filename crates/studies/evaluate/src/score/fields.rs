@@ -77,7 +77,7 @@ pub(super) fn places(truth: &CsvTable, prediction: &CsvTable) -> Result<Vec<Plac
     Ok(places)
 }
 
-/// Set of the fields that have a location.
+/// Set of the fields in `places`.
 pub(super) fn stated(places: &[Place]) -> FieldSet {
     let fields = places.iter().map(|place| place.field);
     FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction) | fields.collect()

@@ -196,7 +196,7 @@ impl ByKey<'_> {
     }
 }
 
-/// Compares by length, then by text. This is the numeric order for whole numbers, and a fixed order for other texts.
+/// Compares two keys by length, then by text. This is the numeric order for whole numbers, and a fixed order for other texts.
 pub(super) fn by_length(one: &str, other: &str) -> Ordering {
     one.len().cmp(&other.len()).then_with(|| one.cmp(other))
 }
@@ -205,7 +205,7 @@ fn part_of(row: u64) -> u64 {
     row / CsvParts::ROWS
 }
 
-/// Parts that contain some of these rows.
+/// Numbers of the table parts that contain `rows`.
 pub(super) fn parts_of(rows: &Range<u64>) -> Range<u64> {
     match rows.is_empty() {
         true => 0..0,

@@ -156,7 +156,8 @@ impl Pass<'_> {
         Ok(Some(evaluator))
     }
 
-    /// Reads the next block of both tables and returns its number; `None` if the block cannot be read, or if one table has more rows.
+    /// Reads the next block of both tables and returns its number. `None` if the block cannot be read, or has unequal numbers of rows in the two
+    /// tables.
     fn next(&self, [of_truth, of_prediction]: &mut [CsvTable; 2]) -> Option<u64> {
         let mut truth = lock(&self.truth);
         let number = self.blocks.fetch_add(1, Ordering::Relaxed);

@@ -1,4 +1,4 @@
-//! Scores two tables by the plan of a state that was computed from them.
+//! Scores two tables by the plan in a state file that was computed from them.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;

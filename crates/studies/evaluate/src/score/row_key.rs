@@ -147,7 +147,7 @@ pub(super) fn in_words(name: &str) -> String {
     }
 }
 
-/// Normal form of a key for comparison: a whole number written with decimals equals this number.
+/// Normal form of a key for comparison: `7.0` becomes `7`, and other text is unchanged.
 pub(super) fn key_of(cell: &str) -> &str {
     match cell.strip_suffix(".0") {
         Some(whole) if is_whole(whole) => whole,

@@ -33,7 +33,7 @@ pub struct ShardError {
 }
 
 impl Shard {
-    /// All rows.
+    /// The only shard, which contains all rows.
     pub const WHOLE: Shard = Shard { number: 1, of: 1 };
 
     /// Creates shard `number`, counted from 1, of `of` shards.

@@ -101,7 +101,7 @@ impl ScoreTables {
             .any(|path| parquet_parts::is_parquet(path) || is_long(path))
     }
 
-    /// Number of rows.
+    /// Number of rows of each table.
     pub fn rows(&self) -> u64 {
         self.truth.rows()
     }

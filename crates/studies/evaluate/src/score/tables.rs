@@ -210,8 +210,8 @@ pub(super) fn is_declared(request: &ScoreRequest, name: &str) -> bool {
 /// Pairs the rows by the first of `keys` that pairs all rows, or by order if there are no keys. Also returns this key.
 ///
 /// # Errors
-/// [`EvaluateError::Tables`] of the first key if none pairs all rows: a value is empty, repeats, or is in only one table. Without keys, for different
-/// numbers of rows.
+/// [`EvaluateError::Tables`] if no key pairs all rows, because a value of the first key is empty, repeats, or is in only one table. Without keys, if
+/// the numbers of rows differ.
 pub(super) fn pair<'a>(
     truth: &CsvTable,
     prediction: &CsvTable,

@@ -63,7 +63,7 @@ struct RowPair {
     prediction: usize,
 }
 
-/// States of the tasks of two tables, which can be written and merged, and whose [`report`](TaskStates::report) has the scores.
+/// Scores the tasks of two tables. The returned states can be written and merged, and their [`report`](TaskStates::report) contains the scores.
 ///
 /// The column of a task has its name. The truth holds classes by name or by position. The predictions hold classes too, or a score for each
 /// class in columns `NAME.p.CLASS`. A pose has seven columns: `NAME.x`, `.y`, `.z` (mm, or the unit of the
@@ -192,7 +192,7 @@ struct Clusters<'a> {
 }
 
 impl<'a> Clusters<'a> {
-    /// Clusters in the column `named`, by default `point_id`, of the truth, or of the predictions if the truth lacks this column.
+    /// Clusters in the column `named`, by default `point_id`. If the truth lacks this column, the predictions must have it.
     fn of(tables: &'a TaskTables, named: Option<&str>) -> Result<Clusters<'a>, EvaluateError> {
         let name = named.unwrap_or(CLUSTER);
         let is_truth = tables.truth.has(name) || !tables.prediction.has(name);
@@ -247,7 +247,7 @@ impl<'a> Clusters<'a> {
         self.table.cell(self.row(pair), self.column)
     }
 
-    /// Row of the table with the clusters.
+    /// Row number of `pair` in the table that has the cluster column.
     fn row(&self, pair: RowPair) -> usize {
         match self.is_truth {
             true => pair.truth,
@@ -255,7 +255,7 @@ impl<'a> Clusters<'a> {
         }
     }
 
-    /// Name of the column.
+    /// Name of the cluster column.
     fn name(&self) -> &'a str {
         &self.table.names()[self.column]
     }
@@ -285,7 +285,7 @@ fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     names.join(", ")
 }
 
-/// Empty state of `task`.
+/// Sums for the scores of `task`, before any sample.
 fn empty(task: &TaskSpec, clusters: &Clusters<'_>) -> TaskState {
     TaskState::new(task.name.as_str(), task.kind.name(), clusters.name())
 }

@@ -55,7 +55,7 @@ fn evaluated(yaw: &str, above: &str) -> Evaluated {
     evaluated_by(&format!("from = \"yaw\", unit = \"deg\"{yaw}"), above)
 }
 
-/// Evaluation with the yaw from this column of the map.
+/// Evaluation of an imported recording. `yaw` is the entry of the yaw in the import map, and `above` is the text before its columns.
 fn evaluated_by(yaw: &str, above: &str) -> Evaluated {
     let folder = tempfile::tempdir().expect("a folder");
     let dataset = dataset(folder.path(), yaw, above);

@@ -55,7 +55,7 @@ impl Tables {
         self
     }
 
-    /// Scores by every way of reading that accepts these tables. All agree, and the last one is returned.
+    /// Scores the tables with every reader that accepts them. Asserts equal results, and returns the last one.
     fn scored(&self) -> Scored {
         let whole = Scoring::read(self.request.clone()).expect("tables");
         let whole = whole.run(&SilentProgress).expect("scored");
@@ -119,7 +119,7 @@ fn distances_beside_predictions_are_left_out_and_a_channel_of_that_name_needs_it
     assert!(refused.contains("distance"), "{refused}");
 }
 
-/// `rows` rows under `header`, each the cells that `cells` gives for its number, in the order of `numbers`.
+/// Table with `header` and one row for each of `numbers`, in this order. `cells` gives the cells of a row from its number.
 fn table(header: &str, numbers: &[u32], cells: impl Fn(u32) -> String) -> String {
     let mut text = format!("{header}\n");
     for number in numbers {
@@ -147,7 +147,7 @@ fn notes(scored: &Scored) -> String {
     scored.report.provenance.notes.join("\n")
 }
 
-/// Truth in order and shuffled predictions, each with `key` before its force.
+/// Truth in order, and shuffled predictions. `key` gives the key cells of both tables from the number of a row.
 fn keyed(names: [&str; 2], key: impl Fn(u32) -> [String; 2]) -> Tables {
     let truth = table(&format!("{},Fz", names[0]), &ORDER, |number| {
         format!("{},{}", key(number)[0], truth_of(number))

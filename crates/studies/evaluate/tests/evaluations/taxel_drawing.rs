@@ -14,7 +14,7 @@ pub(crate) const GRID: [u32; 3] = [5, 1, 3];
 /// Number of rows without contact.
 pub(crate) const REST: u32 = 40;
 
-/// Numbers from −1 to 1: the upper half of a linear congruential sequence.
+/// Numbers from −1 to 1: the upper bits of a linear congruential sequence.
 pub(crate) struct Draws(pub(crate) u64);
 
 impl Draws {
@@ -51,7 +51,7 @@ pub(crate) fn record(path: &Path, rows: u32) -> Dataset {
     record_changed(path, rows, |_, values| values)
 }
 
-/// As [`record`], with changed numbers.
+/// Like [`record`], with the signals of each row replaced by `change`.
 pub(crate) fn record_changed(
     path: &Path,
     rows: u32,

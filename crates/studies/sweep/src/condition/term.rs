@@ -7,7 +7,7 @@ const UNDERSTOOD: &str = "expected NAME = VALUE or NAME != VALUE, joined by ` an
 /// Characters not allowed in an unquoted value. A term with such a value is rejected.
 const SIGNS: [char; 9] = ['=', '!', '<', '>', '&', '|', '(', ')', '"'];
 
-/// Term that selects tasks by the first digits of their key.
+/// Condition that a property of a task, or the beginning of its key, equals a value or differs from it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Term {
     pub(super) name: String,

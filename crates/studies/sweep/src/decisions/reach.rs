@@ -4,13 +4,13 @@ use taceva_metrics::{Difference, SignFlip};
 
 /// Significance level of the family.
 const LEVEL: f64 = 0.05;
-/// Number of flips per test in the family. The least p value is then half of the first step of Holm's procedure, which is `LEVEL` divided by the number of
-/// tests.
+/// Number of sign flips of a test, divided by the number of tests. The least p value is then half of the first step of Holm's procedure, which is
+/// `LEVEL` divided by the number of tests.
 const FLIPS_A_TEST: usize = 40;
 /// Limit on the flips of all tests together. Each flip takes 16 bytes until the family is decided.
 const MOST_FLIPS: usize = 1 << 24;
 
-/// Number of sign flips for each of `tests` tests. It is enough for the first step of Holm's procedure, up to the limit `MOST_FLIPS`.
+/// Number of sign flips for each of `tests` tests: enough for the first step of Holm's procedure, but limited by `MOST_FLIPS`.
 pub(super) fn flips_of(tests: usize) -> u32 {
     let wanted = tests
         .saturating_mul(FLIPS_A_TEST)

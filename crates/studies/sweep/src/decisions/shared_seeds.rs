@@ -10,7 +10,7 @@ use crate::analysis::Group;
 pub(super) struct SharedSeeds {
     /// Errors of each configuration by contact point. A press counts once, even if it was in the test part of several seeds.
     pub(super) sums: Sides<ClusterSums>,
-    /// Number of seeds with a result, for each configuration.
+    /// Number of seeds with a result, for each of the two configurations.
     of: Sides<usize>,
     /// Number of shared seeds.
     pub(super) count: usize,
@@ -38,7 +38,7 @@ impl SharedSeeds {
         shared
     }
 
-    /// Number of compared seeds, for a table. Adds the number of seeds of each configuration if these numbers differ.
+    /// Number of compared seeds, as text. Also states the number of seeds of each configuration if some are not shared.
     pub(super) fn words(&self) -> String {
         let Sides { a, b } = self.of;
         match a == self.count && b == self.count {

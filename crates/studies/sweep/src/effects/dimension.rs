@@ -70,7 +70,7 @@ impl Dimension {
         }
     }
 
-    /// Value of the dimension for a task; `None` if it does not apply.
+    /// Value of the dimension for a task; `None` if the dimension does not apply to the task.
     pub(super) fn word(&self, task: &Task) -> Option<String> {
         match &self.what {
             What::Split => task.split.clone(),
@@ -81,7 +81,7 @@ impl Dimension {
         }
     }
 
-    /// All other properties of a task, as text. Tasks with equal text form a pair.
+    /// All properties of a task except this dimension, as text. Tasks with equal text form a pair.
     pub(super) fn beside(&self, task: &Task) -> String {
         let split = match self.what {
             What::Split => None,

@@ -42,7 +42,7 @@ pub struct LabelsEntry {
     pub allow_invalid: bool,
     /// Thresholds by the name of the task, as decimals.
     pub thresholds: BTreeMap<String, String>,
-    /// Numbers of frames of a debounce by the name of the task.
+    /// Debounce of each task in frames, by the name of the task.
     pub debounces: BTreeMap<String, String>,
 }
 

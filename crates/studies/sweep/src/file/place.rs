@@ -21,7 +21,7 @@ impl FilePlace<'_> {
         }
     }
 
-    /// Line that assigns `key`. Otherwise, the first line that contains `key` as a word, such as a model in a list.
+    /// Line that assigns `key`, or else the first line that contains `key` as a word, such as a model in a list.
     pub(super) fn line_of(&self, key: &str) -> Option<usize> {
         let mut lines = self.text.lines();
         let set = lines.position(|line| {

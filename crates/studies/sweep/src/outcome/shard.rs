@@ -1,4 +1,4 @@
-//! Scores one shard of the tables of truth and prediction. The result is a state, which is merged with the states of other shards.
+//! Scores one shard of the tables of truth and prediction. The result contains sums, which are merged with the sums of other shards.
 
 use taceva_evaluate::{EvaluateError, Shard, UNKNOWN_ORIGIN, Work, task_states};
 

@@ -18,7 +18,7 @@ impl TaskResult {
         })
     }
 
-    /// Reads the result of `key` in `folder`; `None` if the folder has no such result.
+    /// Reads the result of the task with the key `key`; `None` if the folder has no such result.
     pub(crate) fn read(
         folder: &SweepFolder,
         key: &TaskKey,

@@ -1,4 +1,4 @@
-//! Columns of classes and of their scores, as states of a task.
+//! Scores tasks of classes, from columns of classes and columns of their scores.
 
 use taceva_core::shown;
 use taceva_dataset::TaskKind;
@@ -16,13 +16,13 @@ use crate::score_states::ScoreStates;
 pub(super) struct ClassRow<'a> {
     /// Cluster of the sample.
     pub(super) cluster: &'a str,
-    /// Rows of both tables.
+    /// Row numbers of the sample in both tables.
     pub(super) pair: RowPair,
-    /// Position of the true class.
+    /// Index of the true class among the classes of the task.
     pub(super) truth: u32,
-    /// Position of the predicted class, after the rule.
+    /// Index of the predicted class, after the threshold and the debounce.
     pub(super) predicted: u32,
-    /// Position of the predicted class, after the threshold, before the debounce.
+    /// Index of the predicted class, after the threshold and before the debounce.
     pub(super) before_debounce: u32,
     /// Scores of the classes; empty if the predictions have no scores.
     pub(super) scores: Vec<f64>,
@@ -37,7 +37,7 @@ struct LabelledRows<'a> {
     invalid: u64,
 }
 
-/// State of a task with classes.
+/// Sums for the scores of a task with classes.
 pub(super) fn state(
     tables: &TaskTables,
     clusters: &Clusters<'_>,

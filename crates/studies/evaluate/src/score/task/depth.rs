@@ -1,4 +1,4 @@
-//! Compares true depth maps of a dataset with predicted depth maps of an array. The results are states of a task.
+//! Compares true depth maps of a dataset with predicted depth maps of an array.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -18,7 +18,7 @@ use crate::mean_map::{mean_map, rows_of};
 use crate::subject;
 use crate::task_state_file::TaskStates;
 
-/// States of the depth maps of the task `of`, whose truth is a dataset.
+/// Sums for the scores of the depth maps of the task `of`, whose truth is a dataset.
 pub(super) fn states(request: &TaskRequest, of: &TaskSpec) -> Result<TaskStates, EvaluateError> {
     if request.tasks.len() > 1 {
         return Err(EvaluateError::Request(format!(
@@ -168,7 +168,7 @@ fn task_of(dataset: &Dataset, of: &TaskSpec, cluster: Option<&str>) -> Result<Ta
     Ok(task)
 }
 
-/// Definition with the gate of `of` and the size of a pixel of the dataset.
+/// Definition of the task, with the contact depth `gate` of `of` and the pixel size of the dataset.
 fn depth_task(of: &TaskSpec, task: &Task) -> Result<DepthTask, EvaluateError> {
     let refused =
         |problem: String| EvaluateError::Request(format!("task `{}`: {problem}", shown(&of.name)));

@@ -28,7 +28,7 @@ pub(super) fn debounce(rows: &mut [ClassRow<'_>], positive: u32, negative: u32, 
     }
 }
 
-/// Rule of onsets from the rule of a task.
+/// Rule that detects onsets, with the threshold and the debounce of the task's rule.
 pub(super) fn event_rule(rule: Option<&TaskRule>) -> Result<EventRule, EventError> {
     let rule = rule.copied().unwrap_or_default();
     let mut found = EventRule::default();
@@ -41,7 +41,7 @@ pub(super) fn event_rule(rule: Option<&TaskRule>) -> Result<EventRule, EventErro
     Ok(found)
 }
 
-/// Adds the state of onsets, or a remark if the truth has no times.
+/// Adds the sums of onsets to `of_task`, or a remark if the truth has no times.
 pub(super) fn add(
     of_task: &mut TaskState,
     tables: &TaskTables,

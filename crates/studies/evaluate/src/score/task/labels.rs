@@ -15,7 +15,7 @@ const MOST_CLASSES: usize = 1000;
 /// Names of the classes, in their order.
 pub(super) struct ClassNames {
     names: Vec<String>,
-    /// Positions of the names. A whole number written with decimals equals this number.
+    /// Index of each name. The names `7.0` and `7` have the same index.
     positions: BTreeMap<String, u32>,
     are_stated: bool,
 }
@@ -104,7 +104,7 @@ impl ClassNames {
         Ok(ClassNames::new(names, false))
     }
 
-    /// All names.
+    /// Names of all classes, in their order.
     pub(super) fn all(&self) -> &[String] {
         &self.names
     }

@@ -5,7 +5,7 @@ use taceva_tasks::pose::Pose;
 
 use super::TaskSpec;
 
-/// Least number of pairs.
+/// Minimum number of pairs of truth and prediction for a decision.
 const LEAST_PAIRS: usize = 5;
 
 /// Ratio of units with neighbouring prefixes, such as m and mm.
@@ -44,7 +44,7 @@ pub(super) enum LikelyScale {
 }
 
 impl LikelyScale {
-    /// Ratio of `pairs` whose predictions are about 1000 times the truth, or 1/1000 of the truth; `None` for all other pairs.
+    /// Detects predictions that follow the truth, but are about 1000 times or 1/1000 of it. `None` for any other `pairs`.
     ///
     /// Pairs with a zero on either side have no ratio.
     pub(super) fn of(pairs: &[VectorPair]) -> Option<LikelyScale> {

@@ -1,4 +1,4 @@
-//! Columns of poses and places, as states of a task.
+//! Scores tasks of poses and places from their columns.
 
 use taceva_core::SourceUnit;
 use taceva_dataset::TaskKind;
@@ -89,7 +89,7 @@ impl<'a> PoseColumns<'a> {
     }
 }
 
-/// State of a task of poses or places. A prediction at the origin is the constant.
+/// Sums for the scores of a task of poses or places. The constant prediction is the origin.
 pub(super) fn state(
     tables: &TaskTables,
     clusters: &Clusters<'_>,

@@ -30,7 +30,7 @@ pub struct TaskSpec {
     pub positive: Option<String>,
     /// Classes in their order; empty to use the names in both tables.
     pub names: Vec<String>,
-    /// Thresholds between the classes of a pose, `t` along x and y and `r` of the yaw; `None` scores a pose only by its errors.
+    /// Thresholds between the classes of a pose: `t` along x and y in mm, and `r` of the yaw in degrees. `None` scores a pose only by its errors.
     pub thresholds: Option<PoseThresholds>,
     /// Unit of predicted depths, places, or translations of poses; `None` for mm.
     pub unit: Option<String>,

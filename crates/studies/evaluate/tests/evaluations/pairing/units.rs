@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::Tables;
 
-/// Notes on forces of twenty contact points whose predictions are `predict` of the row and the truth, in N.
+/// Notes on forces in N at twenty contact points. `predict` computes a prediction from the row number and the truth.
 fn notes(predict: impl Fn(u32, f64) -> f64) -> Vec<String> {
     let mut truth = "id,point_id,Fz\n".to_owned();
     let mut prediction = "id,Fz\n".to_owned();
