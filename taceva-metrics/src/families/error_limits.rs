@@ -20,7 +20,7 @@ use crate::stats::NormalSample;
 pub(crate) use errors::Errors;
 pub(crate) use intervals::{Whole, of_components};
 use pair_sums::PairColumns;
-use sums::{ErrorSums, Totals};
+use sums::ErrorSums;
 
 /// Least number of samples for a standard deviation.
 const LEAST_SAMPLES: u64 = 2;
@@ -94,6 +94,7 @@ impl Channelwise for ErrorLimits {
         position: usize,
         rows: Option<&[u32]>,
     ) {
+        sums.forget_totals();
         let labels = self.labels(batch);
         if self.columns.len() <= position {
             self.columns.resize_with(position + 1, PairColumns::default);
@@ -159,8 +160,7 @@ impl Channelwise for ErrorLimits {
         let Some(formula) = formula(metric) else {
             return Numbers::of(Err(UndefinedReason::Empty));
         };
-        let totals = Totals::of(sums);
-        let errors = Errors::of(&totals, self.are_declared_independent());
+        let errors = Errors::of(sums.totals(), self.are_declared_independent());
         (formula.finish)(&errors, output.unit)
     }
 
@@ -187,5 +187,35 @@ fn join(errors: &mut Moments, others: Moments) {
     match errors.n {
         0 => *errors = others,
         _ => errors.merge(&others),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::{Channel, Channels, Column};
+
+    use super::*;
+    use crate::exact::merge::Merge;
+
+    #[test]
+    fn totals_follow_every_change_of_the_sums() {
+        let channels = Channels::new([Channel::FZ]).expect("one");
+        let batch = |errors: &[f64]| {
+            let truth = Column::full(errors.to_vec());
+            let prediction = Column::full(vec![0.0; errors.len()]);
+            Batch::from_columns(channels.clone(), vec![truth], vec![prediction], None)
+        };
+        let mut family = ErrorLimits {
+            clustered_by: ClusteredBy::Point,
+            columns: Vec::new(),
+        };
+        let mut sums = ErrorSums::default();
+        family.deposit(&mut sums, &batch(&[0.1, -0.2]), 0, None);
+        assert_eq!(sums.totals().errors.n, 2);
+        family.deposit(&mut sums, &batch(&[0.3]), 0, None);
+        assert_eq!(sums.totals().errors.n, 3);
+        let others = sums.clone();
+        sums.merge(&others);
+        assert_eq!(sums.totals().errors.n, 6);
     }
 }

@@ -35,7 +35,7 @@ struct Part {
 
 impl Part {
     fn of(clusters: &[&ErrorSums], are_declared_independent: bool, formula: &LimitFormula) -> Part {
-        let totals: Vec<Totals> = clusters.iter().map(|sums| Totals::of(sums)).collect();
+        let totals: Vec<&Totals> = clusters.iter().map(|sums| sums.totals()).collect();
         let mut part = Part {
             all: Totals::of_all(&totals),
             others: Totals::without_each(&totals),
