@@ -55,7 +55,7 @@ pub struct Cache {
     models: String,
     /// True if many concurrent tasks use features of the same recordings.
     is_of_many: bool,
-    /// True if only features much smaller than their frames are stored in the folder.
+    /// True if the folder stores only features of at most half of the bytes of their frames.
     is_of_run: bool,
     /// Features of whole recordings, for the folds of one call; `None` if no features are kept in memory.
     memory: Option<features::Memory>,

@@ -25,7 +25,7 @@ pub(super) fn each_left_out(
     leave_out_each(empty.clone(), cells, visit);
 }
 
-/// The same for `cells` if `others` already has the sums of all clusters outside `cells`.
+/// Visits the clusters in `cells`. `others` has the sums of all clusters outside `cells`.
 fn leave_out_each(
     mut others: ErasedSums,
     cells: &[Cell<'_>],
@@ -161,5 +161,32 @@ impl Resampling {
                 Some(name) => numbers.variant(name),
             })
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::moments::Moments;
+
+    #[test]
+    fn each_cluster_is_visited_in_order_with_the_sums_of_all_others() {
+        let sums = |values: &[f64]| {
+            let moments: Moments = values.iter().copied().collect();
+            ErasedSums::new(vec![moments])
+        };
+        for count in 0..8_u32 {
+            let values: Vec<f64> = (0..count).map(|at| f64::from(1_u32 << at)).collect();
+            let clusters: Vec<ErasedSums> = values.iter().map(|value| sums(&[*value])).collect();
+            let cells: Vec<Cell<'_>> = (0..).zip(&clusters).collect();
+            let sum = |sums: &ErasedSums| sums.sums::<Moments>()[0].sum.to_f64();
+            let mut visited = Vec::new();
+            each_left_out(&sums(&[]), &cells, &mut |cell, others| {
+                visited.push([sum(cell), sum(others)]);
+            });
+            let all: f64 = values.iter().sum();
+            let expected: Vec<[f64; 2]> = values.iter().map(|own| [*own, all - own]).collect();
+            assert_eq!(visited, expected);
+        }
     }
 }
