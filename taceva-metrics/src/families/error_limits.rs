@@ -112,14 +112,13 @@ impl Channelwise for ErrorLimits {
             }
             sums.n += 1;
             let difference = pair.residual();
-            if !is_valid(difference) {
+            let is_in_column = is_valid(difference);
+            match is_in_column {
+                true => columns.push(f64::midpoint(pair.reference, pair.estimate), difference),
                 // The difference is too large for a column, but the pair is valid.
-                sums.line.add(pair.reference, pair.estimate);
-                run.add(difference);
-                return;
+                false => sums.line.add(pair.reference, pair.estimate),
             }
-            columns.push(f64::midpoint(pair.reference, pair.estimate), difference);
-            if !is_named {
+            if is_in_column && !is_named {
                 return;
             }
             if run.n > 0 && name(row) != name(first) {
@@ -196,6 +195,7 @@ mod tests {
 
     use super::*;
     use crate::exact::merge::Merge;
+    use crate::pair::GREATEST;
 
     #[test]
     fn totals_follow_every_change_of_the_sums() {
@@ -217,5 +217,34 @@ mod tests {
         let others = sums.clone();
         sums.merge(&others);
         assert_eq!(sums.totals().errors.n, 6);
+    }
+
+    #[test]
+    fn a_difference_too_large_for_a_column_counts_in_its_own_cluster() {
+        let rows = [("a", 0.1), ("b", GREATEST), ("c", 0.2)];
+        let sums = |order: [usize; 3]| {
+            let ordered = order.map(|row| rows[row]);
+            let mut points = Labels::default();
+            ordered.iter().for_each(|(name, _)| points.push(name));
+            let truth = Column::full(ordered.map(|(_, value)| value).to_vec());
+            let prediction = Column::full(ordered.map(|(_, value)| -value).to_vec());
+            let channels = Channels::new([Channel::FZ]).expect("one");
+            let batch = Batch::from_columns(channels, vec![truth], vec![prediction], Some(points));
+            let mut family = ErrorLimits {
+                clustered_by: ClusteredBy::Point,
+                columns: Vec::new(),
+            };
+            let mut sums = ErrorSums::default();
+            family.deposit(&mut sums, &batch, 0, None);
+            sums
+        };
+        let forward = sums([0, 1, 2]);
+        let counts: Vec<u64> = forward
+            .clusters
+            .iter()
+            .map(|(_, errors)| errors.n)
+            .collect();
+        assert_eq!(counts, [1, 1, 1]);
+        assert_eq!(forward, sums([2, 0, 1]));
     }
 }
