@@ -11,6 +11,7 @@ use taceva_core::{counted, shown};
 use anyhow::Context as _;
 use taceva_acquire::{AIR_MM, PlannedScene, Workshop, rehearse_scene};
 use taceva_drivers::Drivers;
+use taceva_evaluate::Cache;
 use taceva_results::EvaluationReport;
 use taceva_study::{Existing, RunFolder, RunSetup, check_models, run_scene};
 
@@ -76,7 +77,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         )),
         _ => context.say(format_args!("run in {}", shown(&path))),
     }
-    let cache = cache::of(&args.cache);
+    let cache = cache::of(&args.cache).map(Cache::of_run);
     let workshop = Workshop {
         drivers: &drivers,
         surroundings: &bench::surroundings,

@@ -170,6 +170,29 @@ fn another_setting_of_the_model_alone_takes_its_features_from_the_cache_and_deco
 }
 
 #[test]
+fn a_run_stores_no_features_as_large_as_their_frames_and_its_bytes_are_those_without_a_cache() {
+    let bench = with_small();
+    // 4,096 bytes of features for a picture of 45×45 pixels in 16 bits, which has 4,050 bytes before compression.
+    let large = SMALL.replace("8x8", "32x32");
+    let with = |place: &str, setting| large.replace(place, &format!("{place}, {setting}"));
+    for (name, scene) in [
+        ("plain", large.clone()),
+        ("strong", with("\"32x32\"", "strength = \"1000\"")),
+        ("folded", with("name = \"ridge\"", "folds = 4")),
+    ] {
+        bench.write("large.toml", &scene);
+        bench.ok(&format!("run large.toml --out {name} -q"));
+        let kept = files(&bench.path("user-cache/taceva/2/features"));
+        assert_eq!(kept, Vec::<PathBuf>::new(), "{name}");
+        bench.ok(&format!("run large.toml --out {name}-bare --no-cache -q"));
+        assert_eq!(
+            written(&bench, name),
+            written(&bench, &format!("{name}-bare"))
+        );
+    }
+}
+
+#[test]
 fn another_seed_press_or_parameter_finds_nothing() {
     let bench = with_small();
     bench.ok("run small.toml --out first -q");

@@ -10,11 +10,16 @@ const RUN: usize = 128;
 #[derive(Clone, Debug)]
 pub(crate) struct SortedMap<K, V> {
     runs: Vec<Vec<(K, V)>>,
+    /// Run of the latest change. Keys mostly arrive in order, so searches begin there.
+    latest: usize,
 }
 
 impl<K, V> Default for SortedMap<K, V> {
     fn default() -> SortedMap<K, V> {
-        SortedMap { runs: Vec::new() }
+        SortedMap {
+            runs: Vec::new(),
+            latest: 0,
+        }
     }
 }
 
@@ -55,10 +60,19 @@ impl<K: Ord, V> SortedMap<K, V> {
     where
         K: Borrow<Q>,
     {
+        let begins = |run: usize| self.runs[run][0].0.borrow() <= key;
         let (mut run, mut above) = (0, self.runs.len());
+        let (latest, next) = (self.latest, self.latest + 1);
+        if latest < above {
+            match begins(latest) {
+                true if next < above && !begins(next) => (run, above) = (latest, next),
+                true => run = latest,
+                false => above = latest,
+            }
+        }
         while above > run + 1 {
             let middle = usize::midpoint(run, above);
-            match self.runs[middle][0].0.borrow() <= key {
+            match begins(middle) {
                 true => run = middle,
                 false => above = middle,
             }
@@ -91,6 +105,7 @@ impl<K: Ord, V> SortedMap<K, V> {
         K: Borrow<Q>,
     {
         let Place { run, at, is_taken } = self.place(key);
+        self.latest = run;
         is_taken.then(|| &mut self.runs[run][at].1)
     }
 
@@ -98,7 +113,7 @@ impl<K: Ord, V> SortedMap<K, V> {
     pub(crate) fn insert(&mut self, key: K, value: V) -> bool {
         let place = self.place(&key);
         if !place.is_taken {
-            self.put(&place, key, value);
+            [self.latest, _] = self.put(&place, key, value);
         }
         !place.is_taken
     }
@@ -116,6 +131,7 @@ impl<K: Ord, V> SortedMap<K, V> {
         if !is_taken {
             [run, at] = self.put(&Place { run, at, is_taken }, key, V::default());
         }
+        self.latest = run;
         &mut self.runs[run][at].1
     }
 

@@ -20,7 +20,7 @@ use crate::stats::NormalSample;
 pub(crate) use errors::Errors;
 pub(crate) use intervals::{Whole, of_components};
 use pair_sums::PairColumns;
-use sums::{ErrorSums, Totals};
+use sums::ErrorSums;
 
 /// Least number of samples for a standard deviation.
 const LEAST_SAMPLES: u64 = 2;
@@ -94,6 +94,7 @@ impl Channelwise for ErrorLimits {
         position: usize,
         rows: Option<&[u32]>,
     ) {
+        sums.forget_totals();
         let labels = self.labels(batch);
         if self.columns.len() <= position {
             self.columns.resize_with(position + 1, PairColumns::default);
@@ -111,18 +112,17 @@ impl Channelwise for ErrorLimits {
             }
             sums.n += 1;
             let difference = pair.residual();
-            if !is_valid(difference) {
+            let is_in_column = is_valid(difference);
+            match is_in_column {
+                true => columns.push(f64::midpoint(pair.reference, pair.estimate), difference),
                 // The difference is too large for a column, but the pair is valid.
-                sums.line.add(pair.reference, pair.estimate);
-                run.add(difference);
-                return;
+                false => sums.line.add(pair.reference, pair.estimate),
             }
-            columns.push(f64::midpoint(pair.reference, pair.estimate), difference);
-            if !is_named {
+            if is_in_column && !is_named {
                 return;
             }
             if run.n > 0 && name(row) != name(first) {
-                clusters.at(first, 0).merge(&std::mem::take(&mut run));
+                join(clusters.at(first, 0), std::mem::take(&mut run));
             }
             if run.n == 0 {
                 first = row;
@@ -131,10 +131,10 @@ impl Channelwise for ErrorLimits {
         });
         let differences = columns.settle_into(&mut sums.line);
         if !is_named {
-            run.merge(&differences);
+            join(&mut run, differences);
         }
         if run.n > 0 {
-            clusters.at(first, 0).merge(&run);
+            join(clusters.at(first, 0), run);
         }
         sums.bound_group();
     }
@@ -159,8 +159,7 @@ impl Channelwise for ErrorLimits {
         let Some(formula) = formula(metric) else {
             return Numbers::of(Err(UndefinedReason::Empty));
         };
-        let totals = Totals::of(sums);
-        let errors = Errors::of(&totals, self.are_declared_independent());
+        let errors = Errors::of(sums.totals(), self.are_declared_independent());
         (formula.finish)(&errors, output.unit)
     }
 
@@ -179,5 +178,73 @@ impl Channelwise for ErrorLimits {
             clusters,
             are_independent,
         ))
+    }
+}
+
+/// Adds the errors `others` to `errors`. The first errors of a cell are moved, which is faster than adding them to zero.
+fn join(errors: &mut Moments, others: Moments) {
+    match errors.n {
+        0 => *errors = others,
+        _ => errors.merge(&others),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::{Channel, Channels, Column};
+
+    use super::*;
+    use crate::exact::merge::Merge;
+    use crate::pair::GREATEST;
+
+    #[test]
+    fn totals_follow_every_change_of_the_sums() {
+        let channels = Channels::new([Channel::FZ]).expect("one");
+        let batch = |errors: &[f64]| {
+            let truth = Column::full(errors.to_vec());
+            let prediction = Column::full(vec![0.0; errors.len()]);
+            Batch::from_columns(channels.clone(), vec![truth], vec![prediction], None)
+        };
+        let mut family = ErrorLimits {
+            clustered_by: ClusteredBy::Point,
+            columns: Vec::new(),
+        };
+        let mut sums = ErrorSums::default();
+        family.deposit(&mut sums, &batch(&[0.1, -0.2]), 0, None);
+        assert_eq!(sums.totals().errors.n, 2);
+        family.deposit(&mut sums, &batch(&[0.3]), 0, None);
+        assert_eq!(sums.totals().errors.n, 3);
+        let others = sums.clone();
+        sums.merge(&others);
+        assert_eq!(sums.totals().errors.n, 6);
+    }
+
+    #[test]
+    fn a_difference_too_large_for_a_column_counts_in_its_own_cluster() {
+        let rows = [("a", 0.1), ("b", GREATEST), ("c", 0.2)];
+        let sums = |order: [usize; 3]| {
+            let ordered = order.map(|row| rows[row]);
+            let mut points = Labels::default();
+            ordered.iter().for_each(|(name, _)| points.push(name));
+            let truth = Column::full(ordered.map(|(_, value)| value).to_vec());
+            let prediction = Column::full(ordered.map(|(_, value)| -value).to_vec());
+            let channels = Channels::new([Channel::FZ]).expect("one");
+            let batch = Batch::from_columns(channels, vec![truth], vec![prediction], Some(points));
+            let mut family = ErrorLimits {
+                clustered_by: ClusteredBy::Point,
+                columns: Vec::new(),
+            };
+            let mut sums = ErrorSums::default();
+            family.deposit(&mut sums, &batch, 0, None);
+            sums
+        };
+        let forward = sums([0, 1, 2]);
+        let counts: Vec<u64> = forward
+            .clusters
+            .iter()
+            .map(|(_, errors)| errors.n)
+            .collect();
+        assert_eq!(counts, [1, 1, 1]);
+        assert_eq!(forward, sums([2, 0, 1]));
     }
 }

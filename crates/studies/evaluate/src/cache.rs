@@ -55,6 +55,8 @@ pub struct Cache {
     models: String,
     /// True if many concurrent tasks use features of the same recordings.
     is_of_many: bool,
+    /// True if the folder stores only features of at most half of the bytes of their frames.
+    is_of_run: bool,
     /// Features of whole recordings, for the folds of one call; `None` if no features are kept in memory.
     memory: Option<features::Memory>,
     /// Rows whose features are computed together; `None` for all rows with an input.
@@ -76,6 +78,7 @@ impl Cache {
             folder,
             models,
             is_of_many: false,
+            is_of_run: false,
             memory: None,
             rows: None,
             is_on_disk: true,
@@ -96,6 +99,16 @@ impl Cache {
         }
     }
 
+    /// Stores only features that take at most half of the bytes of their frames. Larger features are computed again from the frames, because a run
+    /// rarely fits two models to the same features.
+    #[must_use]
+    pub fn of_run(self) -> Cache {
+        Cache {
+            is_of_run: true,
+            ..self
+        }
+    }
+
     /// Cache for the folds of one call. Features of whole recordings are stored in memory, and also in the folder of `outer`.
     pub(crate) fn of_folds(outer: Option<&Cache>) -> Cache {
         let folder = outer.map_or_else(PathBuf::new, |outer| outer.folder.clone());
@@ -104,6 +117,7 @@ impl Cache {
             memory: Some(features::Memory::default()),
             is_on_disk: outer.is_some(),
             is_of_many: true,
+            is_of_run: outer.is_some_and(|outer| outer.is_of_run),
             ..Cache::new(folder, models)
         }
     }

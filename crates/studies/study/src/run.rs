@@ -49,7 +49,7 @@ pub fn run_scene(
     let work = Work {
         jobs: setup.jobs,
         progress: setup.workshop.progress,
-        // Also caches features, so that other model settings need no decoding.
+        // Also caches small features, so that other model settings need no decoding.
         cache: setup.cache,
     };
     let studies = scene.studies.iter().zip(datasets);

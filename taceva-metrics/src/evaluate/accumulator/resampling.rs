@@ -14,27 +14,34 @@ use crate::stats::{Estimated, PoissonBootstrap};
 /// A cluster: its key, which is the hash or index of its name, and the sums of each part.
 pub(super) type Cell<'a> = (u64, &'a ErasedSums);
 
-/// Calls `visit` with the sums of each cluster and the sums of all other clusters.
+/// Calls `visit` with the sums of each cluster and the sums of all other clusters, in the order of `cells`.
 ///
-/// The sums of the other clusters are merged from running sums of the clusters before and after each cluster. Nothing is subtracted, so sums need
-/// no subtraction.
+/// The clusters are halved again and again, and the sums of the other half are merged each time. Nothing is subtracted, so sums need no subtraction.
 pub(super) fn each_left_out(
     empty: &ErasedSums,
     cells: &[Cell<'_>],
     visit: &mut dyn FnMut(&ErasedSums, &ErasedSums),
 ) {
-    let mut after = Vec::with_capacity(cells.len());
-    let mut sums = empty.clone();
-    for (_, cell) in cells.iter().rev() {
-        after.push(sums.clone());
-        sums.merge(cell);
-    }
-    let mut before = empty.clone();
-    for (_, cell) in cells {
-        let mut others = after.pop().unwrap_or_else(|| empty.clone());
-        others.merge(&before);
-        visit(cell, &others);
-        before.merge(cell);
+    leave_out_each(empty.clone(), cells, visit);
+}
+
+/// Visits the clusters in `cells`. `others` has the sums of all clusters outside `cells`.
+fn leave_out_each(
+    mut others: ErasedSums,
+    cells: &[Cell<'_>],
+    visit: &mut dyn FnMut(&ErasedSums, &ErasedSums),
+) {
+    match cells {
+        [] => {}
+        [(_, cell)] => visit(cell, &others),
+        _ => {
+            let (left, right) = cells.split_at(cells.len() / 2);
+            let mut of_left = others.clone();
+            right.iter().for_each(|(_, cell)| of_left.merge(cell));
+            leave_out_each(of_left, left, visit);
+            left.iter().for_each(|(_, cell)| others.merge(cell));
+            leave_out_each(others, right, visit);
+        }
     }
 }
 
@@ -154,5 +161,32 @@ impl Resampling {
                 Some(name) => numbers.variant(name),
             })
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::moments::Moments;
+
+    #[test]
+    fn each_cluster_is_visited_in_order_with_the_sums_of_all_others() {
+        let sums = |values: &[f64]| {
+            let moments: Moments = values.iter().copied().collect();
+            ErasedSums::new(vec![moments])
+        };
+        for count in 0..8_u32 {
+            let values: Vec<f64> = (0..count).map(|at| f64::from(1_u32 << at)).collect();
+            let clusters: Vec<ErasedSums> = values.iter().map(|value| sums(&[*value])).collect();
+            let cells: Vec<Cell<'_>> = (0..).zip(&clusters).collect();
+            let sum = |sums: &ErasedSums| sums.sums::<Moments>()[0].sum.to_f64();
+            let mut visited = Vec::new();
+            each_left_out(&sums(&[]), &cells, &mut |cell, others| {
+                visited.push([sum(cell), sum(others)]);
+            });
+            let all: f64 = values.iter().sum();
+            let expected: Vec<[f64; 2]> = values.iter().map(|own| [*own, all - own]).collect();
+            assert_eq!(visited, expected);
+        }
     }
 }

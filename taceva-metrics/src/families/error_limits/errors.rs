@@ -60,13 +60,24 @@ impl<'a> Errors<'a> {
         sample.ok_or(UndefinedReason::Overflow)
     }
 
+    /// True if the clusters are unknown and the caller did not declare the samples independent.
+    fn are_without_clusters(&self) -> bool {
+        self.totals.is_unnamed && !self.are_declared_independent
+    }
+
+    /// Tolerance factor by `factor`; `None` if these errors have no tolerance limits.
+    pub(super) fn tolerance_factor(&self, factor: fn(&NormalSample) -> Option<f64>) -> Option<f64> {
+        let sample = self.sample().ok().filter(|_| !self.are_without_clusters());
+        sample.and_then(|sample| factor(&sample))
+    }
+
     /// Tolerance limits: mean ± k standard deviations of the errors. `factor` computes k unless a factor was given.
     pub(crate) fn tolerance_ends(
         &self,
         factor: fn(&NormalSample) -> Option<f64>,
     ) -> Result<[f64; 2], UndefinedReason> {
         let sample = self.sample()?;
-        if self.totals.is_unnamed && !self.are_declared_independent {
+        if self.are_without_clusters() {
             return Err(UndefinedReason::NoClusters);
         }
         let factor = self.factor.or_else(|| factor(&sample));

@@ -35,15 +35,14 @@ struct Part {
 
 impl Part {
     fn of(clusters: &[&ErrorSums], are_declared_independent: bool, formula: &LimitFormula) -> Part {
-        let totals: Vec<Totals> = clusters.iter().map(|sums| Totals::of(sums)).collect();
+        let totals: Vec<&Totals> = clusters.iter().map(|sums| sums.totals()).collect();
         let mut part = Part {
             all: Totals::of_all(&totals),
             others: Totals::without_each(&totals),
             are_declared_independent,
             factor: None,
         };
-        let sample = part.errors(None).sample().ok();
-        part.factor = sample.and_then(|sample| (formula.factor)(&sample));
+        part.factor = part.errors(None).tolerance_factor(formula.factor);
         part
     }
 
@@ -78,12 +77,16 @@ pub(super) fn intervals(
             None => first,
         }
     };
+    let whole = numbers(None);
+    // Without a value there is no interval, and no cluster to leave out.
+    let mut variants = whole.variants.iter();
+    let is_defined = whole.value.is_ok() || variants.any(|variant| variant.value.is_ok());
     let samples = |cluster: usize| {
         let of_parts = clusters.iter().map(|sums| sums[cluster].n);
         of_parts.fold(0, u64::saturating_add)
     };
     let left_out = 0..clusters.first().map_or(0, Vec::len);
-    let left_out = left_out.filter(|cluster| samples(*cluster) > 0);
+    let left_out = left_out.filter(|cluster| is_defined && samples(*cluster) > 0);
     let left_out: Vec<(u64, Numbers)> = left_out
         .map(|cluster| (samples(cluster), numbers(Some(cluster))))
         .collect();
@@ -97,7 +100,6 @@ pub(super) fn intervals(
             Err(reason) => Interval::Undefined(reason),
         }
     };
-    let whole = numbers(None);
     let variants = whole.variants.iter().map(|variant| {
         let name = &variant.name;
         let of = interval(variant.value, variant.range, &|others| others.variant(name));
@@ -139,5 +141,36 @@ pub(crate) fn of_components([low, high]: [f64; 2], freedom: f64, clusters: usize
         freedom,
         clusters,
         by: ClusteredBy::default(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::moments::Moments;
+    use crate::families::error_limits::ERROR_LIMITS;
+
+    fn no_factor(_: &NormalSample) -> Option<f64> {
+        panic!("errors without clusters need no factor")
+    }
+
+    #[test]
+    fn errors_without_clusters_have_no_tolerance_limits_and_compute_no_factor() {
+        let mut sums = ErrorSums {
+            n: 3,
+            ..ErrorSums::default()
+        };
+        let errors: Moments = [0.1, -0.2, 0.3].into_iter().collect();
+        sums.clusters.of_labels(None, 3).at(0, 0).merge(&errors);
+        let formula = LimitFormula {
+            finish: |errors, _| Numbers::of(errors.tolerance_ends(no_factor).map(|[low, _]| low)),
+            factor: no_factor,
+            settle: |_, _| {},
+        };
+        let metric = Metric::of(&ERROR_LIMITS);
+        let clusters = [vec![&sums; 6]];
+        let found = intervals(&metric, &formula, Unit::Newton, &clusters, false);
+        let none = Interval::Undefined(UndefinedReason::NoClusters);
+        assert_eq!(found.value, Some(none));
     }
 }

@@ -1,5 +1,7 @@
 //! Sums of the errors of each cluster, and of all clusters together.
 
+use std::cell::OnceCell;
+
 use crate::exact::merge::Merge;
 use crate::exact::moments::Moments;
 use crate::exact::record::Record;
@@ -24,12 +26,34 @@ pub(crate) struct ErrorSums {
     pub(super) line: DifferenceLine,
     /// Errors by cluster; a single cell if clusters are unknown or every sample is its own cluster.
     pub(super) clusters: Cells<Moments>,
+    pub(super) known: KnownTotals,
+}
+
+/// Totals of sums, computed at first use, because several scores need them. Sums are equal whether or not their totals are known.
+#[derive(Clone, Debug, Default)]
+pub(super) struct KnownTotals(OnceCell<Totals>);
+
+impl PartialEq for KnownTotals {
+    fn eq(&self, _: &KnownTotals) -> bool {
+        true
+    }
 }
 
 impl ErrorSums {
+    /// Totals over all errors and clusters.
+    pub(super) fn totals(&self) -> &Totals {
+        self.known.0.get_or_init(|| Totals::of(self))
+    }
+
+    /// Forgets the totals. Every change of the sums begins with this call.
+    pub(super) fn forget_totals(&mut self) {
+        self.known = KnownTotals::default();
+    }
+
     /// Merges all clusters of a group with more than 1,500 clusters. The order of rows has no effect.
     pub(super) fn bound_group(&mut self) {
         if self.is_group_full() {
+            self.forget_totals();
             self.clusters.forget_names();
         }
     }
@@ -67,6 +91,7 @@ impl ErrorSums {
             n_invalid,
             line: DifferenceLine { sums: sums.clone() },
             clusters,
+            known: KnownTotals::default(),
         })
     }
 }
@@ -77,6 +102,7 @@ impl Merge for ErrorSums {
     }
 
     fn merge_times(&mut self, other: &ErrorSums, times: u32) {
+        self.forget_totals();
         add_times(&mut self.n, other.n, times);
         add_times(&mut self.n_invalid, other.n_invalid, times);
         self.line.merge_times(&other.line, times);
@@ -98,7 +124,7 @@ pub(super) struct Totals {
 }
 
 impl Totals {
-    pub(super) fn of(sums: &ErrorSums) -> Totals {
+    fn of(sums: &ErrorSums) -> Totals {
         let mut totals = Totals {
             line: sums.line.clone(),
             is_unnamed: !sums.clusters.are_named(),
@@ -112,14 +138,14 @@ impl Totals {
     }
 
     /// Totals of all `parts` together.
-    pub(super) fn of_all(parts: &[Totals]) -> Totals {
+    pub(super) fn of_all(parts: &[&Totals]) -> Totals {
         let mut all = Totals::default();
         parts.iter().for_each(|part| all.merge(part));
         all
     }
 
     /// Totals of all `parts` but one, for each part in turn. They are added up without any subtraction.
-    pub(super) fn without_each(parts: &[Totals]) -> Vec<Totals> {
+    pub(super) fn without_each(parts: &[&Totals]) -> Vec<Totals> {
         let mut others = Vec::with_capacity(parts.len());
         let mut after = Totals::default();
         for part in parts.iter().rev() {

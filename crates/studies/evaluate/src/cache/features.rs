@@ -68,7 +68,9 @@ impl Cache {
         make: impl FnOnce() -> Result<Features, EvaluateError>,
     ) -> Result<Features, EvaluateError> {
         let bytes = rows.len() as u64 * extractor.shape().len() as u64 * 4;
-        if bytes > ONE_MAX || !self.is_on_disk {
+        let is_large = |frames: u64| 2 * bytes > frames;
+        let is_computed_again = self.is_of_run && frame_bytes(dataset, rows).is_some_and(is_large);
+        if bytes > ONE_MAX || !self.is_on_disk || is_computed_again {
             return make();
         }
         self.clear();
@@ -116,6 +118,16 @@ impl Cache {
             }
         }
     }
+}
+
+/// Stored bytes of the frames of `rows`; `None` if a row has no frame in a pack.
+fn frame_bytes(dataset: &Dataset, rows: &[usize]) -> Option<u64> {
+    let frames = dataset.table().frames();
+    let lengths = rows.iter().map(|row| {
+        let span = frames[*row].as_ref()?.span?;
+        Some(u64::from(span.length))
+    });
+    lengths.sum()
 }
 
 fn features_key(dataset: &Dataset, extractor: &Extractor, rows: &[usize]) -> Key {
