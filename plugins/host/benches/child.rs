@@ -1,5 +1,5 @@
-//! Capture of a 640×480×3 frame through a child, compared with a copy of the same size: `cargo bench -p taceva-host --bench child`. Set
-//! `TACEVA_PYTHON=/path/to/venv/bin/python` to include a Python child.
+//! Benchmark of one 640×480×3 frame captured through a child process, compared with a copy of as many bytes: `cargo bench -p taceva-host --bench
+//! child`. Set `TACEVA_PYTHON=/path/to/venv/bin/python` to include a Python child.
 
 #[path = "../tests/support/built_in.rs"]
 mod built_in;

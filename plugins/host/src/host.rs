@@ -88,7 +88,7 @@ impl PluginHost {
         PluginHost::with_children(plugins, config, log, Children::of_user())
     }
 
-    /// Creates a host of `plugins` with the given children.
+    /// Creates a host of `plugins` with the settings `children` of its child processes.
     pub fn with_children(
         plugins: Plugins,
         config: PluginConfig,

@@ -1,4 +1,4 @@
-//! Reads function tables of a library, up to the shorter size of library and host.
+//! Copies function tables of a plugin library. The smaller of the sizes that library and host state limits the copy.
 
 #![expect(
     unsafe_code,

@@ -25,7 +25,8 @@ use crate::session::Session;
 /// Description of the plugin that a child serves.
 #[derive(Debug, PartialEq)]
 enum Label {
-    /// A library, passed as the next file. Without a manifest, the child only reports the drivers and estimators of the library.
+    /// A library, whose file the host passes after this description. Without a manifest, the child only reports the drivers and estimators of the
+    /// library.
     Library {
         path: PathBuf,
         digest: String,
@@ -45,9 +46,9 @@ variants!(Label, "the plugin to serve" {
     1 => Module { folder, name, preload, manifest },
 });
 
-/// Function that examines a plugin instead of serving it. The file contains the order.
+/// Function that examines a plugin instead of serving it. The file contains the description of the examination.
 ///
-/// Success is a session; failure is an error kind and a message.
+/// Returns a session, or an error kind and a message.
 pub type Examiner = fn(File, Source, &Manifest) -> Result<Arc<dyn Session>, (ErrorKind, String)>;
 
 /// A module that a runtime imports in a confined process.

@@ -148,7 +148,7 @@ impl Handle {
         }
     }
 
-    /// Calls the device, unless the plugin has panicked in it before. Records a panic of this call.
+    /// Calls the device. Fails without a call if the plugin panicked in an earlier call of this device. Records a panic of this call.
     pub fn call(
         &self,
         doing: &'static str,
@@ -220,7 +220,7 @@ impl Owned {
         }))
     }
 
-    /// Error of a check by the host.
+    /// Creates the error of the operation `doing` with the cause `why`, which the host detected.
     pub(crate) fn failed(
         &self,
         kind: ErrorKind,

@@ -19,7 +19,7 @@ pub(crate) struct Hello {
     pub(crate) parent: u32,
     /// Limits that the child imposes on itself.
     pub(crate) confinement: Confinement,
-    /// True if the last file is the socket for the plugin's log lines.
+    /// True if the last file of this message is the socket for the plugin's log lines.
     pub(crate) is_heard: bool,
     /// True if the child loads a plugin. Otherwise the child only reports its isolation.
     pub(crate) loads: bool,

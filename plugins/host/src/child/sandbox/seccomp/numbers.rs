@@ -88,7 +88,7 @@ pub(super) const ALWAYS: &[i64] = &[
     libc::SYS_uname,
 ];
 
-/// Older numbers of the same calls, present only on x86-64.
+/// Older numbers of the calls in [`ALWAYS`], present only on x86-64.
 #[cfg(target_arch = "x86_64")]
 pub(super) const ALWAYS_TOO: &[i64] = &[
     libc::SYS_access,
