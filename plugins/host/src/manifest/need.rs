@@ -43,7 +43,7 @@ pub enum Need {
     Camera,
     /// Human interface devices, such as scales and pedals: `/dev/hidraw*`.
     Hid,
-    /// Serial ports only: a path below `/dev`. `*` stands for any characters except `/`.
+    /// Serial ports at a path below `/dev`. `*` stands for any characters except `/`.
     Serial {
         /// Path of the device.
         path: String,

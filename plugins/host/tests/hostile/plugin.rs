@@ -59,7 +59,7 @@ pub(crate) struct Plugin {
 }
 
 impl Plugin {
-    /// Builds a plugin that misbehaves as `way` names, with the compiler options `defines`.
+    /// Builds a plugin with the misbehaviour `way` and the compiler options `defines`.
     pub(crate) fn build(way: &str, defines: &[String]) -> Plugin {
         let folder = tempfile::tempdir().expect("a folder");
         let mut header = String::new();

@@ -1,5 +1,5 @@
-//! Each need, tested by a plugin that uses it. Without permission, it is denied with the command that allows it. With permission, it succeeds. All
-//! other needs are allowed meanwhile, so a test also shows that none of them grants this access.
+//! Access to each needed resource, tested by a plugin that uses it. Without permission, the access fails with the command that allows it. With
+//! permission, the access succeeds. All other needs are allowed meanwhile, so a test also shows that none of them grants this access.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -117,7 +117,7 @@ optional = true
         others.map(|need| need.parse().expect("a need")).collect()
     }
 
-    /// Checks that `arguments` are denied without `need`, and that the suggested command allows them.
+    /// Checks that a lamp with `arguments` is denied without `need`, and that the suggested command allows it.
     fn proves(&self, need: &str, arguments: &str) {
         let mut allowed = self.all_but(need);
         let why = self.opened(arguments, &allowed);

@@ -28,7 +28,7 @@ const RUST_BUILDS: [(&str, &[&str]); 2] = [
     ("native", &["-Ctarget-cpu=native", "-Copt-level=3"]),
 ];
 
-/// Installs each possible build of the C example in a separate folder. Returns their words.
+/// Installs each possible build of the C example in a separate folder. Returns the words in the ids of these plugins.
 fn lay_all_c(folder: &Path) -> Vec<&'static str> {
     C_BUILDS
         .into_iter()

@@ -35,7 +35,7 @@ impl Profile {
         &self.tables[quantity as usize]
     }
 
-    /// 1/a² in 1/mm². The argument of [`locate`] is t = 1 + r² times this value.
+    /// 1/a² for the contact radius a, 1/mm². The argument of [`locate`] at the radius r is t = 1 + r² times this value.
     pub fn inverse_radius_squared(&self) -> f32 {
         self.inverse_radius_squared
     }
@@ -97,7 +97,7 @@ impl Profile {
     }
 }
 
-/// Node of the contact's rim, t = 2.
+/// Node at the rim of the contact, where the radius equals the contact radius.
 const RIM: usize = (NODES - 1) / 12;
 
 #[cfg(test)]

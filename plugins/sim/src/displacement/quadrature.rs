@@ -32,8 +32,8 @@ const ZETA_MAX: f64 = 14.0;
 const ATTENUATION_MAX: f64 = 30.0;
 /// Minimum number of panels. It resolves the decay of an integrand that does not oscillate.
 const LEAST_PANELS: f64 = 10.0;
-/// Relative blur far from the contact, where the field varies over lengths like r. A blur of 3 % of r changes the field by 5·10⁻⁴ and ends the
-/// integral at k r = 150, the next constant, with the wave number k.
+/// Relative blur far from the contact, where the field varies over lengths like the distance r. A blur of 3 % of r changes the field by 5·10⁻⁴. The
+/// blur ends the integral at k r = 150, the next constant, with the wave number k.
 const BLUR: f64 = 0.03;
 const ARGUMENT_MAX: f64 = 150.0;
 
