@@ -15,7 +15,7 @@ pub enum Bits {
 }
 
 impl Bits {
-    /// Both depths.
+    /// Both numbers of bits.
     pub const ALL: [Bits; 2] = [Bits::Eight, Bits::Sixteen];
 
     /// Name in arguments.

@@ -44,7 +44,7 @@ pub struct Camera {
     /// Inputs for computing the gel. The gel is computed at first use, because its tables are expensive.
     unmade: (GelSpec, Raster, u32),
     gel: Option<Gel>,
-    /// Rows of a band, and its buffer.
+    /// Number of rows of a band; the next field is the buffer of a band.
     band_rows: usize,
     light: Vec<f32>,
 }

@@ -29,10 +29,10 @@ pub(super) const CHUNK: usize = 32;
 /// Slopes of the coating under a run of pixels of one row, as the camera sees it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slopes {
-    /// Slope towards the camera along x and y.
+    /// Slope towards the camera along x; the next field is the slope along y.
     pub(super) x: [f32; CHUNK],
     pub(super) y: [f32; CHUNK],
-    /// Depth in the shadow of the contact, per mm of distance from its centre; 0 outside.
+    /// Darkness of the shadow of the contact, divided by the distance from the centre of the contact, 1/mm; 0 outside the shadow.
     pub(super) shadow: [f32; CHUNK],
     /// Component of the unit normal of the surface along the sensor's axis.
     pub(super) upright: [f32; CHUNK],
@@ -70,7 +70,7 @@ impl Lamp {
         }
     }
 
-    /// Gain of lamp `number` of a unit: 1 with a standard deviation of `spread`.
+    /// Gain of lamp `number` of a unit: random with mean 1 and standard deviation `spread`.
     pub(super) fn gain(stream: &Stream, number: u64, spread: f64) -> f64 {
         1.0 + spread * stream.normal(number)
     }

@@ -43,7 +43,7 @@ impl Dimple {
 /// contact radius and n the normal,
 ///
 /// * w = d [f (−(4/π) kei(s/l)) + (1 − f) h(s/a)], f the share of the skin and h Hertz's profile, along −n;
-/// * the skin follows the drag t by min(1, 1 / (0.35 + s / 1.6 a)) e^(−s / 18 mm) (free);
+/// * the skin follows the drag t by min(1, 1 / (0.35 + s / 1.6 a)) e^(−s / 18 mm) (free parameter);
 /// * the whole dome leans with the lateral force, in proportion to the height.
 pub(super) fn displaced(
     marker: [f64; 3],
