@@ -24,7 +24,7 @@ impl Provenance {
     /// Value of `source`, in place of a measurement method.
     pub const SOURCE: &'static str = "simulated";
 
-    /// Names and values in a fixed order, for files and reports.
+    /// Names and values of the provenance in a fixed order, for files and reports.
     pub fn facts(&self) -> [(&'static str, String); 6] {
         [
             ("source", Provenance::SOURCE.to_owned()),

@@ -6,7 +6,7 @@ use crate::name::Name;
 /// Sources of the crates for Rust plugins: paths such as `taceva-core/src/lib.rs`, and their texts.
 const SOURCES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/sources.rs"));
 
-/// Manifests of these crates, without inheritance from a workspace.
+/// Manifests of the crates for Rust plugins, without inheritance from a workspace.
 const MANIFESTS: [(&str, &str); 3] = [
     (
         "taceva-core",

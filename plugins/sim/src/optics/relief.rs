@@ -30,7 +30,8 @@ pub(super) struct Window {
 /// * A pixel of side p passes sin(k p/2) / (k p/2), the same in every direction.
 #[derive(Clone, Debug)]
 pub(super) struct Relief {
-    /// Amplitude of harmonics 1, 3 and 5 along u, for each harmonic along v, within ±1. Lines use only the first row.
+    /// Amplitudes of harmonics 1, 3 and 5 along one side of the board, for each harmonic along the other side, within ±1. Lines use only the first
+    /// row.
     left: [[f32; 3]; 3],
     kind: GratingKind,
     wave_number: f32,

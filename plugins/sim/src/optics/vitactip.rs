@@ -45,7 +45,7 @@ struct Scene {
     lens: Lens,
     dimple: Dimple,
     disc: Disc,
-    /// Skin under its own lamps, without markers.
+    /// Light of the skin under the dome's own lamps, without markers.
     skin: Vec<f32>,
     /// Places of the markers on the untouched dome, in mm from its centre; the next field has their places in the picture.
     markers: Vec<[f64; 3]>,

@@ -2,7 +2,8 @@
 
 use super::spec::VitactipSpec;
 
-/// An equidistant lens. A point at the angle α from the axis appears α/α_rim radii of the rim from the centre.
+/// An equidistant lens. A point at the angle α from the axis appears at α/α_rim radii of the rim from the centre, where α_rim is the angle of the
+/// rim.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lens {
     /// Distance between the camera and the dome's centre.
@@ -35,7 +36,7 @@ impl Lens {
         [x * scale, y * scale]
     }
 
-    /// Point that has the image `seen`, on a plane perpendicular to the axis, `depth_mm` nearer than the apex.
+    /// Point that has the image `seen`, on a plane perpendicular to the axis, `depth_mm` nearer to the camera than the apex.
     pub(super) fn on_plane(&self, seen: [f64; 2], depth_mm: f64) -> [f64; 2] {
         let [x, y] = seen;
         let from_middle = (x * x + y * y).sqrt();

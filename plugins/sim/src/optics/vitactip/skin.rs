@@ -19,7 +19,8 @@ pub(super) fn glow(from_middle: f64) -> f64 {
     7.0 + 9.0 * bell(from_middle, 30.0 / 46.0) + 5.0 * bell(from_middle - 42.0 / 46.0, 3.0 / 46.0)
 }
 
-/// Light that a scene adds to the skin, in DN (fit: mean gray 17, 28, 34.5 and 47 under S1 to S4, from 12).
+/// Light that a scene adds to the skin, in DN. It is fitted to mean grays of 17, 28, 34.5 and 47 DN under scenes S1 to S4. Without a scene, the mean
+/// gray is 12 DN.
 pub(super) fn outside(scene: AmbientLight, x: f64, y: f64) -> f64 {
     let from = |middle: f64| ((x - middle) * (x - middle) + y * y).sqrt();
     match scene {

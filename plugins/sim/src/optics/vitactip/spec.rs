@@ -13,7 +13,7 @@ pub struct VitactipSpec {
     pub dome_radius_mm: f64,
     /// Distance between apex and camera, on the axis (geometry).
     pub camera_distance_mm: f64,
-    /// Decay length of a dimple of the skin (literature: 1 mm of skin).
+    /// Decay length of a dimple of the skin (literature, for a skin of 1 mm).
     pub dimple_mm: f64,
     /// Sway of the apex per lateral force (free parameter).
     pub sway_mm_per_n: f64,
@@ -27,7 +27,7 @@ pub struct VitactipSpec {
     pub marker_darkness: f64,
     /// Standard deviation of marker places between units (free parameter).
     pub marker_jitter_mm: f64,
-    /// Brightness of the skin (fit: mean gray 12).
+    /// Brightness of the skin (fitted to a mean gray of 12 DN).
     pub skin_dn: f64,
     /// Brightness outside the dome (free parameter).
     pub surroundings_dn: f64,
@@ -83,7 +83,7 @@ impl VitactipSpec {
     }
 }
 
-/// Mean gray of the untouched dome if `skin_dn` is 1.34 and `surroundings_dn` is 3.5 (fitted).
+/// Mean gray, DN, of the untouched dome if `skin_dn` is 1.34 and `surroundings_dn` is 3.5 (fitted).
 const NOMINAL_GRAY: f64 = 12.0;
 
 fn rings(columns: f64) -> i32 {

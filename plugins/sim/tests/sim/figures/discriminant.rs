@@ -3,7 +3,7 @@
 /// Classes with a common covariance.
 pub(crate) struct Discriminant {
     means: Vec<Vec<f64>>,
-    /// Covariance⁻¹ · mean of each class, and half of its product with the mean.
+    /// For each class: covariance⁻¹ · mean, and half the scalar product of this vector with the mean.
     weights: Vec<(Vec<f64>, f64)>,
 }
 

@@ -7,7 +7,7 @@ use taceva_sim::{Bench, Model, Parameters, Press};
 
 /// Published areas under the loading and unloading curves, N·mm. The loop between them has 0.1558.
 const PUBLISHED: [f64; 2] = [0.7106, 0.5548];
-/// Travel of the published curve, and the zero of its force transducer.
+/// Greatest travel of the published curve, mm; the next constant is the zero of its force transducer.
 const DEEPEST_MM: f64 = 3.38;
 const ZERO_N: f64 = 0.004;
 /// Points per curve.
