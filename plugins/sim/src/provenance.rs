@@ -10,7 +10,7 @@ pub const MODEL_VERSION: u32 = 2;
 /// Provenance of a product of the bench.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Provenance {
-    /// Simulated sensor.
+    /// Name of the simulated sensor.
     pub sensor: String,
     /// Number of the unit.
     pub unit: u32,

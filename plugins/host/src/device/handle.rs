@@ -51,11 +51,11 @@ pub struct Owned(Arc<Handle>);
 
 /// Kind of device, with its function table and facts.
 pub(crate) trait PluginDevice: Sized {
-    /// Name of the kind.
+    /// Kind of device.
     const KIND: DriverKind;
     /// Function table of an open device.
     type Calls: Table;
-    /// Facts that a library states.
+    /// Facts that a library states about a device of this kind.
     type Facts;
 
     /// Extracts the facts of this kind; `None` for another kind.

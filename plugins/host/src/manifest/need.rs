@@ -16,7 +16,7 @@ use taceva_core::suggestion;
 
 use crate::text::shown;
 
-/// First words of needs.
+/// Keywords with which the text of a need begins.
 const WORDS: [&str; 9] = [
     "camera", "device", "hid", "listen", "read", "serial", "tcp", "udp", "usb",
 ];

@@ -9,7 +9,7 @@ use taceva_host::Patience;
 
 use crate::plugin::{Plugin, capture, sensor};
 
-/// Attempts, in the order of `escapes.h`.
+/// Attempts to leave the sandbox, in the order of `escapes.h`.
 const ESCAPES: [&str; 18] = [
     "read a foreign file",
     "write outside",
@@ -31,7 +31,7 @@ const ESCAPES: [&str; 18] = [
     "take files of the parent",
 ];
 
-/// Targets of the attempts.
+/// Files and servers that the attempts to leave the sandbox try to reach.
 struct Targets {
     folder: tempfile::TempDir,
     tcp: TcpListener,

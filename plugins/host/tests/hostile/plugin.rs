@@ -20,7 +20,7 @@ pub(crate) const ROBOT: DriverKey = DriverKey::fixed("org.example.hostile/robot"
 /// Force transducer of the plugin.
 pub(crate) const FORCE: DriverKey = DriverKey::fixed("org.example.hostile/force");
 
-/// Program of the child.
+/// Path of the program that runs as the child process.
 pub(crate) const CHILD: &str = env!("CARGO_BIN_EXE_taceva-host-child");
 
 const FRAME: FrameInfo = FrameInfo {

@@ -20,7 +20,7 @@ const ID: &str = "org.example.reach";
 /// Device number of a character device that any user may open: `fuse`.
 const OPENED_BY_ANYBODY: (u32, u32) = (10, 229);
 
-/// The plugin and its needs.
+/// Built test plugin and its needs.
 struct Reach {
     folder: TempDir,
     needs: Vec<String>,

@@ -31,7 +31,7 @@ impl AmbientLight {
         AmbientLight::Spot,
     ];
 
-    /// Name in tables.
+    /// Name of the scene in tables of results.
     pub const fn name(self) -> &'static str {
         match self {
             AmbientLight::Normal => "normal",

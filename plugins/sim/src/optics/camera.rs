@@ -49,7 +49,7 @@ pub struct Camera {
     light: Vec<f32>,
 }
 
-/// Values in a band: as many as fit into the first-level cache.
+/// Number of values in a band: as many as fit into the first-level cache.
 const BAND: usize = 6144;
 
 impl Camera {

@@ -42,7 +42,7 @@ pub(super) struct Relief {
 
 /// Height of a board's relief above its middle, mm (literature).
 const AMPLITUDE_MM: f64 = 0.2;
-/// Half the side of a board, mm (geometry).
+/// Half the side of a board, mm (from the board's geometry).
 const HALF_SIDE_MM: f32 = 5.0;
 /// Width of the fading edge of a board, mm.
 const EDGE_MM: f32 = 0.15;

@@ -24,7 +24,7 @@ impl Origin {
         Origin::Free,
     ];
 
-    /// Name in tables.
+    /// Name of the origin in parameter tables.
     pub const fn name(self) -> &'static str {
         match self {
             Origin::Geometric => "geometric",

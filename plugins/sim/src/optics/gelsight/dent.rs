@@ -121,7 +121,7 @@ fn shade(rho: f64) -> f64 {
     libm::exp(-from_middle * from_middle)
 }
 
-/// Nodes and weights of the standard normal distribution.
+/// Nodes and weights of Gauss-Hermite quadrature for the standard normal distribution.
 const HERMITE: [(f64, f32); 7] = [
     (-3.750_439_717_725_742, 0.000_548_268_86),
     (-2.366_759_410_734_541, 0.030_757_124),

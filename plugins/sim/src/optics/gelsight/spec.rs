@@ -10,7 +10,7 @@ use crate::parameters::{GelWear, Layer, Markers, Parameters};
 pub struct GelsightSpec {
     /// Thickness of the gel (literature).
     pub thickness_mm: f64,
-    /// Sag of the surface at x = 7 mm and at y = 9 mm (geometry).
+    /// Sag of the surface at x = 7 mm and at y = 9 mm (from the sensor's geometry).
     pub sag_mm: [f64; 2],
     /// Lamps: red on the left, green on the right, blue at the bottom, and weak cyan at the top (free parameter).
     pub lamps: Vec<LampSpec>,

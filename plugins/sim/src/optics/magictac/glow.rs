@@ -49,7 +49,7 @@ pub(super) struct Outside {
 }
 
 impl Outside {
-    /// Effect of `scene`.
+    /// Creates the effect of `scene` on the pictures of the camera.
     pub(super) fn new(scene: AmbientLight) -> Outside {
         Outside { scene }
     }

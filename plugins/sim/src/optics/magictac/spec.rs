@@ -6,9 +6,9 @@ use crate::parameters::{GelWear, Lattice, Layer, Parameters};
 /// A clear block with a printed lattice in three layers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MagictacSpec {
-    /// Thickness of the block (geometry).
+    /// Thickness of the block (from the sensor's geometry).
     pub thickness_mm: f64,
-    /// Depths of the lattice's layers below the surface (geometry).
+    /// Depths of the lattice's layers below the surface (from the sensor's geometry).
     pub layers_mm: [f64; 3],
     /// Distance between the lattice's lines (free parameter).
     pub pitch_mm: f64,

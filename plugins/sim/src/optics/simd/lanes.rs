@@ -10,7 +10,7 @@
 #[cfg(target_arch = "x86_64")]
 use std::arch::x86_64 as isa;
 
-/// Four numbers.
+/// Four binary32 numbers in one vector register.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::optics) struct Lanes(Vector);
 

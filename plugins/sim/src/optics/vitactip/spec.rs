@@ -9,9 +9,9 @@ use crate::parameters::{Dome, GelWear, Parameters};
 /// Places in the picture are in radii of the visible rim of the dome.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VitactipSpec {
-    /// Radius of the dome (geometry).
+    /// Radius of the dome (from the sensor's geometry).
     pub dome_radius_mm: f64,
-    /// Distance between apex and camera, on the axis (geometry).
+    /// Distance between apex and camera, on the axis (from the sensor's geometry).
     pub camera_distance_mm: f64,
     /// Decay length of a dimple of the skin (literature, for a skin of 1 mm).
     pub dimple_mm: f64,

@@ -13,7 +13,7 @@ const ZERO_N: f64 = 0.004;
 /// Points per curve.
 const STEPS: u32 = 100;
 
-/// Dome of the page: F₀ = 0.0891 N/mm^1.5 · d^(3/2), the same at every place, without a force limit.
+/// Dome of the project page: unrelaxed force 0.0891 N/mm^1.5 · d^(3/2) at the depth d, the same at every place, without a force limit.
 fn dome_of_the_page() -> Parameters {
     let mut parameters = Model::ViTacTip.parameters();
     let taceva_sim::Body::Dome(dome) = &mut parameters.body else {
