@@ -31,9 +31,9 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// Source of the crates for a plugin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sources {
-    /// Embedded in this program, under `vendor/`. The plugin builds without a network, for the interface of this program.
+    /// Crates embedded in this program, under `vendor/`. The plugin builds without a network, for the interface of this program.
     Vendored,
-    /// From the registry, by version.
+    /// Crates from the registry, by version.
     Registry,
 }
 

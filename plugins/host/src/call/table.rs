@@ -16,7 +16,7 @@ use super::Failure;
 /// Table of functions whose first field is its size.
 ///
 /// # Safety
-/// The type is `repr(C)`, begins with its size as a `u32`, and is a value where all its bytes are 0.
+/// The type is `repr(C)`, begins with its size as a `u32`, and has a valid value whose bytes are all 0.
 pub unsafe trait Table: Copy {
     /// Name of the table, for messages.
     const NAME: &'static str;

@@ -230,7 +230,7 @@ impl Owned {
         Failure::new(kind, why).of(&self.0.driver, doing)
     }
 
-    /// Function of the extension table `id`, which the device declares. The error quotes the declaration `says`.
+    /// Function of the extension table `id`. If the device lacks it, the error quotes the declaration `says`, which promises the function.
     pub(crate) fn ability<T: Table, F>(
         &self,
         id: &'static str,

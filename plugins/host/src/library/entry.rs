@@ -103,7 +103,7 @@ impl Entry {
     }
 }
 
-/// Id of the factory of force transducers in libraries for minor versions below [`NEW_FORCE_MINOR`]. Their torques are in N·m.
+/// Id of the factory of force transducers in libraries that were built for a minor version below [`NEW_FORCE_MINOR`]. Their torques are in N·m.
 const EARLIER_FORCE_FACTORY: &str = "taceva.force/1";
 
 const FACTORIES: [(DriverKind, &str); 6] = [

@@ -53,7 +53,7 @@ pub enum Need {
         /// Path of the device.
         path: String,
     },
-    /// TCP servers: an address. `*` stands for any characters except `.`.
+    /// TCP servers at one address. `*` stands for any characters except `.`.
     Tcp {
         /// Address or host name.
         address: String,

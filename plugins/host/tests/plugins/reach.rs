@@ -93,7 +93,7 @@ optional = true
         })
     }
 
-    /// Opens the lamp with `arguments` and the needs in `allowed`. The error is a message.
+    /// Opens the lamp of the plugin with `arguments` and the needs in `allowed`. The error is a message.
     fn opened(&self, arguments: &str, allowed: &BTreeSet<Need>) -> Result<(), String> {
         let path = SearchPath::empty().given([self.folder.path().to_owned()]);
         let mut config = PluginConfig::default();
@@ -146,7 +146,7 @@ impl Drop for Removed {
     }
 }
 
-/// Creates a device file for all users; `None` if this user may not.
+/// Creates a device file for all users; `None` if this user may not create it.
 fn device(path: &str) -> Option<Removed> {
     let (major, minor) = OPENED_BY_ANYBODY;
     let mode = Mode::from_raw_mode(0o666);

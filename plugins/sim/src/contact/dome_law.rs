@@ -11,7 +11,7 @@ use crate::parameters::Dome;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DomeLaw {
     dome: Dome,
-    /// 1 / √R of the ball for which the gel stiffness is specified.
+    /// 1 / √R for the relative radius R of the dome and the ball for which the gel stiffness is specified.
     inverse_root_stated: f64,
 }
 

@@ -12,7 +12,7 @@ const OCTAVES: usize = 12;
 /// Number of values in a table: one at each node, from the centre to 64 contact radii.
 pub const NODES: usize = OCTAVES * CELLS + 1;
 
-/// A function of r², with a value at each [`node`].
+/// A function of the squared radius, with a value at each [`node`].
 pub type Radial = [f32; NODES];
 
 /// Bits of the fraction in a binary32.

@@ -29,8 +29,8 @@ impl Profile {
         }
     }
 
-    /// Table of one function, with a value at each [`node`]. [`Quantity::Sink`] and [`Quantity::Along`] are in mm; each division by r and each
-    /// derivative divides the unit by mm.
+    /// Table of one function, with a value at each [`node`]. [`Quantity::Sink`] and [`Quantity::Along`] are in mm; each division by the radius and
+    /// each derivative divides the unit by mm.
     pub fn table(&self, quantity: Quantity) -> &Radial {
         &self.tables[quantity as usize]
     }

@@ -94,7 +94,7 @@ impl GelFault {
         }
     }
 
-    /// Cause and appearance, in one line.
+    /// Cause and appearance of the fault, in one line.
     pub const fn title(self) -> &'static str {
         match self {
             GelFault::Softening => "a softer gel",
@@ -110,7 +110,7 @@ impl GelFault {
         }
     }
 
-    /// Meaning and unit of the parameter.
+    /// Meaning and unit of the parameter of the fault.
     pub const fn parameter(self) -> &'static str {
         match self {
             GelFault::Softening => "share of the stiffness that is lost",
@@ -146,7 +146,7 @@ impl GelFault {
         }
     }
 
-    /// Parameter of `severity`, from 1 to 5.
+    /// Parameter of the fault at `severity`, from 1 to 5.
     pub fn amount(self, severity: u8) -> f64 {
         self.amounts()[usize::from(severity.clamp(1, 5)) - 1]
     }
@@ -217,7 +217,7 @@ impl GelFault {
 }
 
 impl Parameters {
-    /// The table `text` with `fault` at `severity`, from 1 to 5. Each changed value has the origin `free` and a note with the assumption.
+    /// Returns the table `text` with `fault` at `severity`, from 1 to 5. Each changed value has the origin `free` and a note with the assumption.
     ///
     /// # Errors
     /// As [`Parameters::parse`]. The changed table may be refused too: a thinner gel may no longer allow the greatest depth.

@@ -59,7 +59,7 @@ pub struct Entry {
     pub unit: &'static str,
     /// Origin of the value.
     pub origin: Origin,
-    /// Line of the table, from 1.
+    /// Line of the value in the table, counted from 1.
     pub line: usize,
 }
 

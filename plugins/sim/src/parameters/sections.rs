@@ -69,7 +69,7 @@ section! {
         relaxation_time_s: "s", 0.001 ..= 100000.0;
         /// Greatest fraction of the force that earlier presses take from a gel, down to their depth.
         conditioning_fraction: "1", 0.0 ..= 0.5;
-        /// Number of presses after which the loss still lacks 1/e of its limit.
+        /// Number of presses after which the loss has reached 1 − 1/e of its limit.
         conditioning_presses: "1", 0.1 ..= 1000.0;
     }
 }
@@ -151,11 +151,11 @@ section! {
 section! {
     /// Layers of a printed lattice.
     Lattice, "lattice", {
-        /// Depth of the first layer.
+        /// Depth of the first layer below the surface.
         first_depth_mm: "mm", 0.05 ..= 50.0;
-        /// Depth of the second layer.
+        /// Depth of the second layer below the surface.
         second_depth_mm: "mm", 0.05 ..= 50.0;
-        /// Depth of the third layer.
+        /// Depth of the third layer below the surface.
         third_depth_mm: "mm", 0.05 ..= 50.0;
         /// Pitch of the lattice.
         pitch_mm: "mm", 0.1 ..= 50.0;

@@ -13,7 +13,7 @@ use crate::wire_version::WIRE;
 /// First message, with the limits that the child must impose on itself before it loads anything. The message also transfers the files to serve.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Hello {
-    /// The host's [`WIRE`]. This is the first field, so a child of any version can read it.
+    /// Wire version of the host, [`WIRE`]. This is the first field, so a child of any version can read it.
     pub(crate) wire: u32,
     /// Process number of the host. A child with another parent process concludes that the host is gone.
     pub(crate) parent: u32,

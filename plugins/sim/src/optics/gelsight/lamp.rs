@@ -8,7 +8,7 @@ use crate::random::Stream;
 pub struct LampSpec {
     /// Centre of the bar: x, y, and its height over the gel, on the side of the camera.
     pub middle_mm: [f64; 3],
-    /// Half of its length along x and y.
+    /// Half the length of the bar along x and y.
     pub half_length_mm: [f64; 2],
     /// Red, green and blue light of the bar on a gel that faces the bar at the reach of the lamps, DN.
     pub colour_dn: [f64; 3],

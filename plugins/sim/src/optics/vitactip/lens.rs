@@ -23,7 +23,7 @@ impl Lens {
         }
     }
 
-    /// Image of `point`, a place in mm from the dome's centre, in radii of the rim.
+    /// Image of `point`, in radii of the rim. The point is in mm from the dome's centre.
     pub(super) fn project(&self, point: [f64; 3]) -> [f64; 2] {
         let [x, y, z] = point;
         let from_axis = (x * x + y * y).sqrt();

@@ -6,12 +6,12 @@ use crate::optics::ambient::AmbientLight;
 /// Weight of a place in the dome: 1 inside, 0 outside, with an edge of width `edge`.
 ///
 /// # Units
-/// Radii of the rim, here and below.
+/// Radii of the rim, in this function and in the functions below.
 pub(super) fn inside(from_middle: f64, edge: f64) -> f64 {
     1.0 / (1.0 + libm::exp((from_middle - OUTLINE) / edge))
 }
 
-/// Radius of the visible outline: slightly outside the rim.
+/// Radius of the visible outline, in radii of the rim: slightly outside the rim.
 const OUTLINE: f64 = 47.0 / 46.0;
 
 /// Light of the dome's own lamps on skin of brightness 1: uniform, brighter in the centre, and a ring inside the rim.

@@ -4,7 +4,7 @@ use taceva_sim::{Label, Model};
 
 use super::calibration::{SEEDS, labels};
 
-/// Bins along x and y.
+/// Number of bins along x, and along y.
 const BINS: usize = 15;
 /// Force below which the ratio of travel and force is ignored.
 const GATE_N: f64 = 0.02;
