@@ -17,8 +17,8 @@ pub(super) struct Shift {
 }
 
 /// Four rows of lanes: outward shift over r, shift along the shear, shift towards the shear's axis over r², and wetting, for the radius r. Each row
-/// has one lane per layer. The fourth lane of the first row is the slope of the surface over r, so the gradient of the surface is computed together
-/// with the shifts.
+/// has one lane per layer. The fourth lane of the first row is the slope of the surface over r. The gradient of the surface is therefore computed
+/// together with the shifts.
 type Node = [[f32; 4]; 4];
 
 /// Effect at a place: the shift of each layer, and in the fourth lane the gradient of the surface's depth.
@@ -35,7 +35,7 @@ const LEAST_MM: f64 = 0.004;
 /// Fraction of the reach, at its outer end, over which the effect fades.
 const FADE: f64 = 0.2;
 
-/// Fraction of full wetting at `beyond` mm outside the rim.
+/// Fraction of the full brightening by contact, at `beyond` mm outside the rim.
 fn wet(beyond: f64) -> f64 {
     if beyond > 8.0 {
         return 0.0;

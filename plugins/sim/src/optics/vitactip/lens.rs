@@ -2,8 +2,7 @@
 
 use super::spec::VitactipSpec;
 
-/// An equidistant lens. A point at the angle α from the axis appears at α/α_rim radii of the rim from the centre, where α_rim is the angle of the
-/// rim.
+/// An equidistant lens. A point at the angle α from the axis appears α/α_rim radii of the rim from the centre. The rim has the angle α_rim.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lens {
     /// Distance between the camera and the dome's centre.

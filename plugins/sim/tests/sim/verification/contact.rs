@@ -151,8 +151,8 @@ fn forces_along_normal_and_tangent_add_up() {
     }
 }
 
-/// Check V15 of `docs/validation.md`: at the angle θ from the apex, the ratio S(θ)/S(0) of sensitivities = 1/(cos² + μ sin cos) if everything slides,
-/// and 1/cos² without friction, for depths that do not change the normal.
+/// Check V15 of `docs/validation.md`: the sensitivity S at the angle θ from the apex, for depths that do not change the normal. S(θ)/S(0) is 1/(cos²
+/// θ + μ sin θ cos θ) if everything slides, and 1/cos² θ without friction.
 #[test]
 fn a_dome_looks_softer_towards_its_rim_by_geometry_alone() {
     let depth_mm = 1e-4;

@@ -199,8 +199,8 @@ fn twice_the_force_moves_the_gel_twice_as_far() {
     }
 }
 
-/// Below the surface of a thick layer under nearly a point load, the field is Boussinesq's for an incompressible half-space of modulus E under the
-/// force F: u_z = 3F/(4πE) (1/R)(1 + z²/R²) and u_r = 3F/(4πE) z r/R³ with R² = r² + z².
+/// The field below a thick layer's surface under nearly a point load F is Boussinesq's for an incompressible half-space of modulus E: u_z = 3F/(4πE)
+/// (1/R)(1 + z²/R²) and u_r = 3F/(4πE) z r/R³ with R² = r² + z².
 #[test]
 fn deep_below_a_small_contact_the_field_is_that_of_a_point_force() {
     let load = Load {
