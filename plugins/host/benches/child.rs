@@ -1,5 +1,5 @@
-//! Capture of a 640×480×3 frame through a child, compared with a copy of the same size: `cargo bench -p taceva-host --bench child`. Set
-//! `TACEVA_PYTHON=/path/to/venv/bin/python` to include a Python child.
+//! Benchmark of one 640×480×3 frame captured through a child process, compared with a copy of as many bytes: `cargo bench -p taceva-host --bench
+//! child`. Set `TACEVA_PYTHON=/path/to/venv/bin/python` to include a Python child.
 
 #[path = "../tests/support/built_in.rs"]
 mod built_in;
@@ -115,7 +115,7 @@ fn child_that_writes_each_frame(bencher: Bencher<'_, '_>) {
     capture_through_a_child(bencher, "writes=true");
 }
 
-/// Python camera that writes each frame.
+/// Source of a Python plugin whose camera fills each frame.
 const PACKAGE: &str = r#"
 import numpy as np
 import taceva.plugin as tp
@@ -142,7 +142,7 @@ source = "simulated"
 frame = { width = 640, height = 480, format = "rgb8" }
 "#;
 
-/// Interpreter of an environment with the package `taceva`, readable by the user of a plugin.
+/// Python interpreter that `TACEVA_PYTHON` names; its environment has the package `taceva`, and the user of a plugin may read it.
 fn interpreter() -> Option<PathBuf> {
     std::env::var_os("TACEVA_PYTHON").map(PathBuf::from)
 }

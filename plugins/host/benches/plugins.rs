@@ -1,4 +1,4 @@
-//! Cost of a plugin in this process, compared with a copy of the same size: `cargo bench -p taceva-host --bench plugins`.
+//! Benchmark of a plugin's frames in this process, compared with a copy of as many bytes: `cargo bench -p taceva-host --bench plugins`.
 
 #[path = "../tests/plugins/fixture.rs"]
 #[expect(dead_code, reason = "the tests use more of it")]
@@ -20,7 +20,7 @@ fn main() {
 const BYTES: usize = 640 * 480 * 3;
 const LONG: Deadline = Deadline::after(Duration::from_secs(10));
 
-/// Sensor that lends its image without waiting; `None` without a C compiler.
+/// 640×480 camera of a C plugin that lends its image without waiting for an exposure; `None` without a C compiler.
 fn camera() -> Option<PluginSensor> {
     let fixture = Fixture::built(&["WIDTH=640", "HEIGHT=480", "LEND", "FREE_RUNNING"])?;
     let fixture = fixture.with_manifest("width = 8, height = 6", "width = 640, height = 480");

@@ -1,6 +1,6 @@
 //! Opens this program's own simulated bench in a child process: `cargo run -p taceva-host --example serve_bench`.
 //!
-//! As a host child, it serves its linked drivers. A plugin library would be loaded at the same point.
+//! The child process serves the drivers that are linked into this program. It could load a plugin library instead.
 
 #[path = "../tests/support/built_in.rs"]
 mod built_in;

@@ -1,4 +1,4 @@
-//! Calls of library functions. Converts statuses to errors, keeps messages, checks and copies texts and tables.
+//! Calls functions of a plugin library. Converts statuses to errors, keeps messages, checks and copies texts and tables.
 
 mod arguments;
 pub mod pending_call;
@@ -38,7 +38,7 @@ impl Failure {
         self.kind
     }
 
-    /// Converts the failure into an error of `driver` that occurred while it was `doing`.
+    /// Converts the failure into an error of `driver` that names the failed operation `doing`.
     pub(crate) fn of(self, driver: &DriverKey, doing: &'static str) -> DriverError {
         let error = DriverError::new(self.kind, driver, doing);
         // The message may already begin with "cannot `doing`: ", which the error adds itself.

@@ -42,7 +42,7 @@ pub struct PluginConfig {
     /// environments.
     #[serde(default)]
     pub python: Vec<PathBuf>,
-    /// Needs of each plugin that the user allows.
+    /// Needs that the user allows, by plugin.
     #[serde(default)]
     pub allow: BTreeMap<PluginId, BTreeSet<Need>>,
     /// Plugins that the command line trusts.

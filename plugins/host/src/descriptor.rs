@@ -90,7 +90,7 @@ fn facts(manifest: &Facts, library: &Facts) -> Option<[String; 3]> {
     Some([promised.key.to_owned(), promised.words, said.words])
 }
 
-/// Fact with its key in a manifest, in words.
+/// Fact of a device: its key in a manifest, and its value in words.
 #[derive(Clone, PartialEq)]
 struct Fact {
     key: &'static str,

@@ -1,4 +1,4 @@
-//! Devices of a library in this process, behind the device traits of core.
+//! Devices of a library in this process, behind the device traits of `taceva_core`.
 
 mod bench;
 mod changer;

@@ -75,7 +75,8 @@ impl Withheld {
         self.remedy().map(|remedy| format!("{why}; {remedy}"))
     }
 
-    /// Remedy for a permission error; `None` if every need is allowed, unless a confined plugin declares no needs.
+    /// Remedy for a permission error: the command that allows the needs, or a hint if the manifest of a confined plugin declares none. `None` if
+    /// every need is allowed.
     fn remedy(&self) -> Option<String> {
         match (self.needs.is_empty(), self.asks_for_nothing) {
             (false, _) => Some(self.to_string()),
@@ -130,7 +131,7 @@ fn word(text: &str) -> String {
 }
 
 impl PluginConfig {
-    /// Needs granted to `plugin` without known arguments.
+    /// Needs granted to `plugin` while the arguments of its device are unknown.
     pub(crate) fn grant(&self, plugin: &Plugin) -> Grant {
         let mut grant = self.granted(
             plugin,

@@ -88,7 +88,7 @@ impl PluginHost {
         PluginHost::with_children(plugins, config, log, Children::of_user())
     }
 
-    /// Creates a host of `plugins` with the given children.
+    /// Creates a host of `plugins` with the settings `children` of its child processes.
     pub fn with_children(
         plugins: Plugins,
         config: PluginConfig,
@@ -143,7 +143,7 @@ impl PluginHost {
         &self.children
     }
 
-    /// Drivers of kind `D` of every plugin, by key.
+    /// Drivers of kind `D` of every plugin, ordered by the id of the plugin.
     pub fn drivers<D>(self: &Arc<PluginHost>) -> Vec<Box<dyn Factory<D>>>
     where
         D: taceva_core::Device + ?Sized,
@@ -167,7 +167,7 @@ impl PluginHost {
         drivers
     }
 
-    /// Estimators of every plugin, by key.
+    /// Estimators of every plugin, ordered by the id of the plugin.
     pub fn estimators(&self) -> impl Iterator<Item = (&Plugin, &EstimatorInfo)> {
         self.plugins.iter().flat_map(|plugin| {
             let estimators = plugin.manifest.estimators();

@@ -155,7 +155,7 @@ impl Library {
         self.entries.get(key)
     }
 
-    /// Exported table.
+    /// Plugin table that the library exports.
     pub fn plugin(&self) -> &abi::Plugin {
         &self.plugin
     }

@@ -39,7 +39,7 @@ impl Limited {
         self.tell_at(Instant::now(), level, target, message);
     }
 
-    /// Adds lines that were dropped before this log.
+    /// Counts lines that the child dropped before they reached this log.
     pub(crate) fn lose(&self, count: u64) {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         state.left_out = state.left_out.saturating_add(count);

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use rustix::fs::{SealFlags, fcntl_add_seals};
 use rustix::io::Errno;
 
-/// Seals that fix contents and size, including the seal on the seals.
+/// Seals that fix contents and size, and forbid changes of the seals.
 const ALL: SealFlags = SealFlags::WRITE
     .union(SealFlags::GROW)
     .union(SealFlags::SHRINK)

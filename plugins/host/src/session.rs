@@ -13,7 +13,7 @@ pub use taceva_core::{FitRequest, Saved, SavedRegressor};
 ///
 /// Drivers and estimators are named by their full keys. Open devices keep their resources alive, so the session may be dropped first.
 pub trait Session: Send + Sync {
-    /// Offers and needs of the library, as in a manifest.
+    /// Lists the drivers, estimators and needs of the library, as in a manifest.
     ///
     /// # Errors
     /// [`DriverError`] if the session has no library, or its statements do not fit a manifest.

@@ -46,7 +46,7 @@ mod tests {
     use super::*;
     use std::fs;
 
-    /// Names of devices contain a port, such as `1-2`, unlike root hubs (`usb1`) and interfaces (`1-2:1.0`).
+    /// In the kernel's list, only devices have a port as name, such as `1-2`. Root hubs (`usb1`) and interfaces (`1-2:1.0`) do not count.
     #[test]
     fn as_many_devices_are_listed_as_the_kernel_has() {
         let listed = fs::read_dir("/sys/bus/usb/devices").into_iter().flatten();

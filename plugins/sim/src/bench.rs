@@ -204,7 +204,7 @@ impl Bench {
         contact
     }
 
-    /// Reduces the depths of an indentation until the force limit holds. Returns true if the limit stops the press above its depth.
+    /// Reduces the depths of an indentation until the force limit holds. Returns true if the limit stops the press before its depth.
     fn limit(&self, indentation: &mut Indentation) -> bool {
         let limit_n = self.parameters.probing.force_max_n;
         let loading = |depth_mm: f64| Indentation {

@@ -5,7 +5,8 @@
 //! tables are independent of force, modulus and place, so that one [`Tables`] per depth suffices. A [`Profile`] contains the values for one press,
 //! and a [`Field`] places a profile at a contact.
 //!
-//! With r now the place relative to the centre of the contact, s the unit vector of the shear and r² = r·r, a profile gives
+//! Let r now be the place relative to the centre of the contact, s the unit vector of the shear and r² = r·r. The factors of a profile (outward,
+//! along, radial, sink and bulge) give
 //!
 //! * along the surface: r·outward + s·along − r (r·s)·radial,
 //! * upwards: −sink + (r·s)·bulge, with the gradient −r·sink_slope + s·bulge + r (r·s)·bulge_slope.

@@ -58,7 +58,7 @@ pub struct Parameters {
     pub material: Material,
     /// Probed surface and depths.
     pub probing: Probing,
-    /// Variation between units and places.
+    /// Variation of gels between units and places.
     pub variation: Variation,
     /// Camera of the sensor.
     pub camera: Camera,

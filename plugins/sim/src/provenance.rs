@@ -10,7 +10,7 @@ pub const MODEL_VERSION: u32 = 2;
 /// Provenance of a product of the bench.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Provenance {
-    /// Simulated sensor.
+    /// Name of the simulated sensor.
     pub sensor: String,
     /// Number of the unit.
     pub unit: u32,
@@ -24,7 +24,7 @@ impl Provenance {
     /// Value of `source`, in place of a measurement method.
     pub const SOURCE: &'static str = "simulated";
 
-    /// Names and values in a fixed order, for files and reports.
+    /// Names and values of the provenance in a fixed order, for files and reports.
     pub fn facts(&self) -> [(&'static str, String); 6] {
         [
             ("source", Provenance::SOURCE.to_owned()),

@@ -1,7 +1,7 @@
-//! One sensor unit: its differences from other units, and between places.
+//! One sensor unit: its differences from other units, and the differences between its places.
 //!
-//! A unit depends on the name of the sensor and the number of the unit, not on the seed of a run. Every run therefore uses the same gel. Unit 0 has the nominal
-//! modulus and sag.
+//! A unit depends on the name of the sensor and the number of the unit, not on the seed of a run. Every run therefore uses the same gel. Unit 0 has
+//! the nominal modulus and sag.
 
 use std::f64::consts::TAU;
 
@@ -46,7 +46,8 @@ const BLISTERS: usize = 2;
 const SAG_STATED_MM: [f64; 2] = [7.0, 9.0];
 /// Bound of the rounding error of sums of a few lengths.
 const ROUNDING_MM: f64 = 1e-9;
-/// Start of the edge softening, as a fraction of the reach; the next constant is the margin of the gel beyond the picture.
+/// Start of the edge softening, as a fraction of the distance from the axis to the edge of the gel; the next constant is the margin of the gel beyond
+/// the picture.
 const EDGE_BEGINS: f64 = 0.75;
 const EDGE_MARGIN_MM: f64 = 1.5;
 
@@ -117,12 +118,12 @@ impl Unit {
         relief.gap_mm.abs() * Waves::GREATEST + blisters.sum::<f64>() + ROUNDING_MM
     }
 
-    /// Place on the gel at a place of the rig.
+    /// Converts a place of the rig to a place on the gel, which may be shifted in its housing.
     fn on_gel(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [x - self.shift_mm[0], y - self.shift_mm[1]]
     }
 
-    /// Edge softening: 1 inside, lower towards the free edge.
+    /// Factor of the stiffness near the edge: 1 inside, lower towards the free edge.
     fn edge(&self, place_mm: [f64; 2]) -> f64 {
         let reach = |length: f64| 0.5 * length + EDGE_MARGIN_MM;
         let x = place_mm[0].abs() / reach(self.surface.width_mm);
@@ -185,7 +186,7 @@ const STIFFNESS_WAVES: f64 = 0.5;
 const GAP_WAVES: f64 = 1.0;
 
 impl Waves {
-    /// Upper bound of the field: half the sum of [`WAVES`] cosines of 1.
+    /// Upper bound of the field, at which the cosine of each of the [`WAVES`] waves is 1.
     const GREATEST: f64 = 0.5 * WAVES as f64;
 
     fn new(stream: Stream, first: u64, wave_number_max: f64) -> Waves {

@@ -6,7 +6,7 @@ use crate::name::Name;
 /// Sources of the crates for Rust plugins: paths such as `taceva-core/src/lib.rs`, and their texts.
 const SOURCES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/sources.rs"));
 
-/// Manifests of these crates, without inheritance from a workspace.
+/// Manifests of the crates for Rust plugins, without inheritance from a workspace.
 const MANIFESTS: [(&str, &str); 3] = [
     (
         "taceva-core",
@@ -31,9 +31,9 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// Source of the crates for a plugin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sources {
-    /// Embedded in this program, under `vendor/`. The plugin builds without a network, for the interface of this program.
+    /// Crates embedded in this program, under `vendor/`. The plugin builds without a network, for the interface of this program.
     Vendored,
-    /// From the registry, by version.
+    /// Crates from the registry, by version.
     Registry,
 }
 

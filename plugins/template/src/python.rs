@@ -4,7 +4,7 @@ use crate::kind::Kind;
 use crate::name::Name;
 use crate::project::File;
 
-/// Module, and its part of the manifest.
+/// Python module of a plugin of `kind`, and its part of the manifest.
 fn module(kind: Kind) -> (&'static str, &'static str) {
     macro_rules! files {
         ($kind:literal) => {

@@ -1,4 +1,4 @@
-//! Reads function tables of a library, up to the shorter size of library and host.
+//! Copies function tables of a plugin library. The smaller of the sizes that library and host state limits the copy.
 
 #![expect(
     unsafe_code,
@@ -16,7 +16,7 @@ use super::Failure;
 /// Table of functions whose first field is its size.
 ///
 /// # Safety
-/// The type is `repr(C)`, begins with its size as a `u32`, and is a value where all its bytes are 0.
+/// The type is `repr(C)`, begins with its size as a `u32`, and has a valid value whose bytes are all 0.
 pub unsafe trait Table: Copy {
     /// Name of the table, for messages.
     const NAME: &'static str;

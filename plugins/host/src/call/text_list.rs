@@ -28,7 +28,7 @@ impl Taken {
         std::ptr::from_mut(self).cast()
     }
 
-    /// Collected texts, or the error of an invalid text or an exceeded limit.
+    /// Collected texts, or an error for an invalid text or an exceeded limit.
     pub fn texts(self) -> Result<Vec<String>, Failure> {
         match self.fault {
             None => Ok(self.texts),

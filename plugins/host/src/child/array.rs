@@ -85,7 +85,7 @@ pub(crate) struct OwnedSet {
 }
 
 impl OwnedSet {
-    /// Reads the set of `shape` from `memory`.
+    /// Reads a training set with the dimensions `shape` from `memory`.
     pub(crate) fn take(shape: SetShape, memory: &mut SharedMemory) -> Result<OwnedSet, Failure> {
         let refused = || {
             let why = "the shared memory is smaller than its samples";

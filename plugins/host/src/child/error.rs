@@ -42,7 +42,7 @@ pub enum ChildError {
     Gone {
         /// Name of the plugin.
         plugin: String,
-        /// Exit or kill that ended the child.
+        /// Reason for the end of the child.
         fate: Fate,
         /// Last output of the child, with control characters escaped; empty if it printed nothing.
         printed: String,
@@ -66,7 +66,7 @@ impl ChildError {
         }
     }
 
-    /// Converts the failure into an error of `driver` that occurred while it was `doing`.
+    /// Converts the failure into an error of `driver` that names the failed operation `doing`.
     pub fn of(self, driver: &DriverKey, doing: &str) -> DriverError {
         DriverError::new(self.kind(), driver, doing.to_owned()).because(self)
     }
@@ -117,7 +117,7 @@ fn last_lines(printed: &str) -> String {
 }
 
 impl Failure {
-    /// Converts a driver's error for the wire.
+    /// Converts a driver's error into a failure that the child sends to the host.
     pub(crate) fn of(error: &DriverError) -> Failure {
         Failure {
             kind: error.kind(),

@@ -51,7 +51,7 @@ impl Fate {
         }
     }
 
-    /// True if a close or an end timed out. No caller receives an error for these operations.
+    /// True if closing a device or ending the child timed out. No caller receives an error for these operations.
     pub(crate) fn is_unheard(&self) -> bool {
         matches!(self, Fate::Late { doing, .. } if doing == CLOSING || doing == ENDING)
     }

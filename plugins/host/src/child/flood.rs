@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-/// Counter of a child's output. The count restarts after each [`Flood::WITHIN`].
+/// Counter of a child's output, restarted every [`Flood::WITHIN`].
 #[derive(Debug)]
 pub(super) struct Flood {
     most: u64,
@@ -11,7 +11,7 @@ pub(super) struct Flood {
 }
 
 impl Flood {
-    /// Time window of a count.
+    /// Time after which the counter restarts.
     pub(super) const WITHIN: Duration = Duration::from_secs(10);
 
     /// Counter with the limit `most`.

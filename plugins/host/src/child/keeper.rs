@@ -26,7 +26,7 @@ const PRINTED_IN_ALL: u64 = 64 << 20;
 /// Capacity of a pipe, bytes.
 const PIPE_MAX: usize = 64 * 1024;
 
-/// Running child: process number, watch and keeper thread.
+/// Running child: process number, shared state of its end, and keeper thread.
 #[derive(Debug)]
 pub(crate) struct Kept {
     pub(crate) process: u32,

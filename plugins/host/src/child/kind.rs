@@ -20,7 +20,7 @@ use super::wire::{Answer, Call, Failure, OpenedDevice};
 
 /// Kind of device: `dyn Sensor`, `dyn Robot`, `dyn ForceTransducer`, `dyn Lighting` or `dyn Changer`.
 pub(super) trait Kind: 'static {
-    /// Name of the kind.
+    /// Kind of device.
     const KIND: DriverKind;
 
     /// Wraps an open device in the server that answers calls in the child.

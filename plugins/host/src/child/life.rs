@@ -8,7 +8,7 @@ use super::socket::LinkError;
 use super::timeouts::Patience;
 use super::watch::Watch;
 
-/// Name, watch and timeouts of a child, kept by its clients even after its end.
+/// Name, shared state and timeouts of a child, kept by its clients even after its end.
 #[derive(Debug)]
 pub(crate) struct Life {
     pub(super) plugin: String,

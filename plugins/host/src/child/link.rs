@@ -121,7 +121,7 @@ impl Link {
         error.of(&self.driver, "open the device")
     }
 
-    /// Error for an invalid reading of the device.
+    /// Error of this device with kind [`ErrorKind::DeviceFault`] and cause `why`, for the operation `doing`.
     pub(super) fn fault(&self, doing: &'static str, why: impl fmt::Display) -> DriverError {
         DriverError::new(ErrorKind::DeviceFault, &self.driver, doing).because(why.to_string())
     }

@@ -59,7 +59,7 @@ pub(super) fn send(level: Level, target: &str, message: &str) -> bool {
     true
 }
 
-/// Log target of lines that name the pending call of a check.
+/// Log target of lines that name the pending call of a plugin under examination.
 pub const CALL: &str = "taceva-call";
 
 /// In the child: reports the long-running call `doing`, which is empty if no call is pending.
@@ -90,7 +90,7 @@ pub(super) fn end() {
     }
 }
 
-/// Delay between retries of a child that ends.
+/// Delay between attempts of an ending child to send its last count.
 const PAUSE: Duration = Duration::from_millis(1);
 
 /// Maximum number of lines that a child may log within [`Flood::WITHIN`].

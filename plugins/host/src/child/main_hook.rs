@@ -61,7 +61,7 @@ pub(super) fn can_be_child() -> bool {
 /// Exit code of a process that has the host-child argument but no host.
 const NOT_A_CHILD: i32 = 64;
 
-/// Moves the host's socket from standard input to another file, and makes standard input empty. Closes every other inherited file.
+/// Moves the host's socket from standard input to a new file descriptor, and makes standard input empty. Closes every other inherited file.
 fn orders() -> Option<Socket> {
     let orders = fcntl_dupfd_cloexec(std::io::stdin().as_fd(), 3).ok()?;
     let nothing = File::open("/dev/null").ok()?;

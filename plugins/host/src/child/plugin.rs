@@ -25,7 +25,8 @@ use crate::session::Session;
 /// Description of the plugin that a child serves.
 #[derive(Debug, PartialEq)]
 enum Label {
-    /// A library, passed as the next file. Without a manifest, the child only reports the drivers and estimators of the library.
+    /// A library, whose file the host passes after this description. Without a manifest, the child only reports the drivers and estimators of the
+    /// library.
     Library {
         path: PathBuf,
         digest: String,
@@ -45,9 +46,9 @@ variants!(Label, "the plugin to serve" {
     1 => Module { folder, name, preload, manifest },
 });
 
-/// Function that examines a plugin instead of serving it. The file contains the order.
+/// Function that examines a plugin instead of serving it. The file contains the description of the examination.
 ///
-/// Success is a session; failure is an error kind and a message.
+/// Returns a session, or an error kind and a message.
 pub type Examiner = fn(File, Source, &Manifest) -> Result<Arc<dyn Session>, (ErrorKind, String)>;
 
 /// A module that a runtime imports in a confined process.
@@ -168,11 +169,15 @@ fn serve_libraries(examiner: Option<Examiner>) {
     });
 }
 
-/// Serves as the child of the host on standard input, and returns the exit code. The process confines itself, calls `import` for the requested module
-/// and serves it until the host is gone. A requested library is loaded instead. This function is for runtimes of other languages with their own
-/// `main`. Call this function first, before any other thread starts, because threads that already run are not confined. This function closes every
-/// open file except the three standard files. `import` returns the function table of the module, or the reason for the failure. `examiner` executes
-/// orders to examine the module. Afterwards the process must end without running exit handlers.
+/// Serves as the child of the host on standard input, and returns the exit code. This function is for runtimes of other languages with their own
+/// `main`.
+///
+/// The process confines itself, calls `import` for the requested module and serves the module until the host is gone. If the host requests a library,
+/// the process loads the library instead. `import` returns the function table of the module, or the reason for the failure. `examiner` executes
+/// orders to examine the module.
+///
+/// Call this function first, before any other thread starts, because threads that already run are not confined. This function closes every open file
+/// except the three standard files. Afterwards the process must end without running exit handlers.
 pub fn serve_as_child(
     import: impl FnOnce(&ModuleToImport) -> Result<Linked, String>,
     examiner: Option<Examiner>,

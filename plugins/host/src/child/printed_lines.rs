@@ -16,7 +16,7 @@ const WAITING: usize = 256;
 /// Log target of printed lines.
 const TARGET: &str = "printed";
 
-/// Printed lines of a child as log lines of level `Debug`, with the rate limit of the log lines that the child sends.
+/// Passes printed lines of a child to the log at level `Debug`. The rate limit of the log lines that the child sends applies to them too.
 pub(super) struct PrintedLines {
     begun: Vec<u8>,
     lines: Option<SyncSender<Vec<u8>>>,

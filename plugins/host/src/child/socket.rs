@@ -24,7 +24,7 @@ type FileSpace = [MaybeUninit<u8>; rustix::cmsg_space!(ScmRights(FILES_MAX))];
 pub(crate) struct Socket {
     file: OwnedFd,
     outgoing: Vec<u8>,
-    /// Always [`MESSAGE_MAX`] bytes.
+    /// Buffer for one incoming packet, always [`MESSAGE_MAX`] bytes.
     incoming: Vec<u8>,
 }
 
@@ -155,7 +155,7 @@ impl AsFd for Caller {
     }
 }
 
-/// Borrowed message after its number. The receiver reads a pair of number and message.
+/// Borrowed message with the number of its request. The receiver reads a pair of number and message.
 struct Numbered<'a, T>(u32, &'a T);
 
 impl<T: Wire> Wire for Numbered<'_, T> {

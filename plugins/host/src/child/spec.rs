@@ -13,7 +13,7 @@ use super::usage::Usage;
 use crate::library::Log;
 use crate::manifest::Sha256Digest;
 
-/// Callback that receives the reason for the end of a child, and its times.
+/// Callback that receives the reason for the end of a child, and its run and processor times.
 pub(super) type Ended = Box<dyn FnOnce(&Fate, Usage) + Send>;
 
 /// Specification of a child to start.

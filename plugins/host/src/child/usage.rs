@@ -3,7 +3,7 @@
 use std::fmt;
 use std::time::Duration;
 
-/// Children with a shorter run time are never reported.
+/// Run time below which the usage of a child is never reported.
 const SHORT: Duration = Duration::from_secs(2);
 /// Ticks per second of the times in `/proc`, a fixed interface of the kernel.
 const TICKS_PER_SECOND: u64 = 100;

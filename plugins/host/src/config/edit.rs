@@ -67,7 +67,7 @@ impl PluginConfig {
     }
 }
 
-/// Line with the needs of a plugin in the table.
+/// Line with the needs of a plugin in the table of permissions.
 fn line(id: &PluginId, needs: &BTreeSet<Need>) -> String {
     let needs: Vec<String> = needs.iter().map(quoted).collect();
     format!("\"{id}\" = [{}]\n", needs.join(", "))
@@ -77,7 +77,7 @@ fn quoted(need: &Need) -> String {
     toml::Value::String(need.to_string()).to_string()
 }
 
-/// Adds an entry after the last entry of the table.
+/// Adds an entry after the last entry of the table of permissions.
 fn with_line(
     text: &str,
     id: &PluginId,
@@ -108,7 +108,7 @@ fn with_line(
     }
 }
 
-/// Byte offset after the header of the table; `None` if there is no such table.
+/// Byte offset after the header of the table of permissions; `None` if there is no such table.
 fn header_end(text: &str) -> Option<usize> {
     let mut place = 0;
     for line in text.split_inclusive('\n') {

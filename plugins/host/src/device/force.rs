@@ -25,13 +25,13 @@ pub(crate) struct PluginForce {
     calls: abi::ForceCalls,
     read: Read,
     axes: Axes,
-    /// Unit of the torques of the library, N·mm.
+    /// Torque unit of the library, expressed in N·mm.
     torque_unit: f64,
     tare: Option<TareAbility>,
     numbers: Option<Sequence>,
     /// Sequence number of the last reading; `None` before the first, or if the device does not number readings.
     sequence: Option<u64>,
-    /// Number of lost readings, as stated after the last reading; `None` if not counted.
+    /// Number of lost readings, as stated after the last reading; `None` if the device does not count them.
     lost: Option<u64>,
 }
 

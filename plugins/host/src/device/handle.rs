@@ -51,11 +51,11 @@ pub struct Owned(Arc<Handle>);
 
 /// Kind of device, with its function table and facts.
 pub(crate) trait PluginDevice: Sized {
-    /// Name of the kind.
+    /// Kind of device.
     const KIND: DriverKind;
     /// Function table of an open device.
     type Calls: Table;
-    /// Facts that a library states.
+    /// Facts that a library states about a device of this kind.
     type Facts;
 
     /// Extracts the facts of this kind; `None` for another kind.
@@ -148,7 +148,7 @@ impl Handle {
         }
     }
 
-    /// Calls the device, unless the plugin has panicked in it before. Records a panic of this call.
+    /// Calls the device. Fails without a call if the plugin panicked in an earlier call of this device. Records a panic of this call.
     pub fn call(
         &self,
         doing: &'static str,
@@ -220,7 +220,7 @@ impl Owned {
         }))
     }
 
-    /// Error of a check by the host.
+    /// Creates the error of the operation `doing` with the cause `why`, which the host detected.
     pub(crate) fn failed(
         &self,
         kind: ErrorKind,
@@ -230,7 +230,7 @@ impl Owned {
         Failure::new(kind, why).of(&self.0.driver, doing)
     }
 
-    /// Function of the extension table `id`, which the device declares. The error quotes the declaration `says`.
+    /// Function of the extension table `id`. If the device lacks it, the error quotes the declaration `says`, which promises the function.
     pub(crate) fn ability<T: Table, F>(
         &self,
         id: &'static str,

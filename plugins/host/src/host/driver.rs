@@ -108,7 +108,7 @@ impl PluginDriver {
         Ok(format!("sha256:{}", plugin.read(key)?.digest()))
     }
 
-    /// Devices that the library finds. If there are none, USB devices that the manifest names and the kernel lists.
+    /// Devices that the library finds. If it finds none, returns the USB devices that the manifest names and the kernel lists.
     fn present(&self) -> Result<Vec<Found>, DriverError> {
         let key = self.descriptor.key();
         let found = self.host.look(self.plugin("look for devices")?, key)?;

@@ -24,7 +24,7 @@ struct PluginEstimator {
 }
 
 impl PluginHost {
-    /// Estimator factories of every plugin, by key.
+    /// Estimator factories of every plugin, ordered by the id of the plugin.
     pub fn models(self: &Arc<PluginHost>) -> Vec<Arc<dyn EstimatorFactory>> {
         let estimators = self.estimators().map(|(plugin, info)| {
             let estimator: Arc<dyn EstimatorFactory> = Arc::new(PluginEstimator {

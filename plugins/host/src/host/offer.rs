@@ -1,4 +1,4 @@
-//! Offer of a library, queried in a child without access to the outside.
+//! Queries the drivers, estimators and needs that a library offers, in a child without access to the outside.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::offer::Offer;
 use crate::session::Session;
 
 impl Offer {
-    /// Queries the offer of the library `image` in a child without access to the outside.
+    /// Queries the drivers, estimators and needs that the library `image` offers, in a child without access to the outside.
     ///
     /// # Errors
     /// [`DriverError`] if the library cannot be loaded or its offer cannot be read.

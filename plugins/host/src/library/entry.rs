@@ -90,7 +90,7 @@ impl Entry {
         }
     }
 
-    /// Arguments that select each connected device; `None` if the plugin cannot search.
+    /// One argument text for each connected device, which selects this device; `None` if the plugin cannot search.
     pub(crate) fn discover(&self) -> Result<Option<Vec<String>>, Failure> {
         let Some(discover) = self.factory.and_then(|factory| factory.discover) else {
             return Ok(None);
@@ -103,7 +103,7 @@ impl Entry {
     }
 }
 
-/// Id of the factory of force transducers in libraries for minor versions below [`NEW_FORCE_MINOR`]. Their torques are in N·m.
+/// Id of the factory of force transducers in libraries that were built for a minor version below [`NEW_FORCE_MINOR`]. Their torques are in N·m.
 const EARLIER_FORCE_FACTORY: &str = "taceva.force/1";
 
 const FACTORIES: [(DriverKind, &str); 6] = [
@@ -279,5 +279,5 @@ fn agree(said: &BTreeMap<DriverKey, Entry>, manifest: &Manifest) -> Result<(), L
     }
 }
 
-/// First minor version whose force transducers have their own id and torques in N·mm.
+/// First minor version in which the factory of force transducers has a new id and torques are in N·mm.
 pub(crate) const NEW_FORCE_MINOR: u32 = 3;

@@ -139,7 +139,7 @@ pub enum LoadProblem {
     Init(Failure),
     /// A function table is invalid.
     Table(String),
-    /// A description of a driver failed.
+    /// The library failed to describe a driver.
     Describe(Failure),
     /// The description of a driver cannot be parsed.
     Describes {

@@ -1,10 +1,10 @@
-//! Offer of a loaded library.
+//! Drivers, estimators and needs of a loaded library.
 
 use super::{Library, LoadProblem, text};
 use crate::offer::Offer;
 
 impl Library {
-    /// Offers and needs of the library.
+    /// Lists the drivers, estimators and needs of the library.
     pub fn offer(&self) -> Result<Offer, LoadProblem> {
         let said = self.plugin();
         let needs = text("`needs`", said.needs, None)?;

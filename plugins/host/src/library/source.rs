@@ -22,7 +22,7 @@ impl Linked {
         Linked { table, path }
     }
 
-    /// Offers and needs, as in a manifest.
+    /// Lists drivers, estimators and needs of the table, as in a manifest.
     ///
     /// # Errors
     /// [`LoadError`] if the tables contain values that a manifest cannot express.

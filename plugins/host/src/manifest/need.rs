@@ -16,7 +16,7 @@ use taceva_core::suggestion;
 
 use crate::text::shown;
 
-/// First words of needs.
+/// Keywords with which the text of a need begins.
 const WORDS: [&str; 9] = [
     "camera", "device", "hid", "listen", "read", "serial", "tcp", "udp", "usb",
 ];
@@ -43,7 +43,7 @@ pub enum Need {
     Camera,
     /// Human interface devices, such as scales and pedals: `/dev/hidraw*`.
     Hid,
-    /// Serial ports only: a path below `/dev`. `*` stands for any characters except `/`.
+    /// Serial ports at a path below `/dev`. `*` stands for any characters except `/`.
     Serial {
         /// Path of the device.
         path: String,
@@ -53,7 +53,7 @@ pub enum Need {
         /// Path of the device.
         path: String,
     },
-    /// TCP servers: an address. `*` stands for any characters except `.`.
+    /// TCP servers at one address. `*` stands for any characters except `.`.
     Tcp {
         /// Address or host name.
         address: String,

@@ -36,7 +36,7 @@ pub enum Profile {
 }
 
 impl Profile {
-    /// Name in manifests.
+    /// Name of the profile in manifests.
     pub const fn name(self) -> &'static str {
         match self {
             Profile::Interpreter => "interpreter",

@@ -18,7 +18,7 @@ use crate::text::shown;
 pub enum Provided {
     /// A driver.
     Driver {
-        /// Data for planning. The key is the plugin's id, `/`, and the key of the table.
+        /// Description of the driver, for planning. Its key is the plugin's id, `/`, and the key of the table.
         descriptor: Box<Descriptor>,
         /// USB ids of its devices, for listing devices that are plugged in.
         usb: Vec<UsbId>,

@@ -7,7 +7,7 @@ use toml::Spanned;
 use super::argument::WrittenArgument;
 use super::usb_id::UsbId;
 
-/// Content of a table, with the keys of all kinds.
+/// Content of a `[[provides]]` table, with the keys of all kinds.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WrittenProvides {

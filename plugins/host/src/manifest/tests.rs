@@ -110,7 +110,7 @@ fn refused(text: &str) -> String {
     Manifest::parse(text).expect_err(text).to_string()
 }
 
-/// Error of the whole manifest with `old` replaced by `new`.
+/// Replaces `old` with `new` in a valid manifest, and returns the error of parsing the result.
 fn with(old: &str, new: &str) -> String {
     let text = whole();
     assert!(text.contains(old), "{old}");

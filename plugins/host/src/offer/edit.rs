@@ -1,4 +1,4 @@
-//! Update of a manifest's text from its library's offer. Comments and order are kept.
+//! Update of a manifest's text from the data that its library states. Comments and order are kept.
 
 use toml::Value as Plain;
 use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value, value};

@@ -162,7 +162,7 @@ impl Promised {
         }
     }
 
-    /// Fails if a listed file is missing.
+    /// Fails if the archive lacks `SHA256SUMS` or a file that it lists.
     fn whole(&self, seen: &BTreeSet<String>) -> Result<(), PackageError> {
         if !seen.contains(DIGESTS) {
             return Err(PackageError::entry(DIGESTS, "it is missing"));

@@ -19,7 +19,7 @@ pub(crate) const FRAME: FrameInfo = FrameInfo {
     format: PixelFormat::Rgb8,
 };
 
-/// Opens sensors that misbehave at each capture as the argument `does` names.
+/// Opens sensors whose captures misbehave in the way that the argument `does` names.
 pub(crate) struct OddSensorFactory(Descriptor);
 
 impl OddSensorFactory {

@@ -1,4 +1,4 @@
-//! Attempts to leave the sandbox. They succeed in a program, and fail in a plugin of any user.
+//! Attempts to leave the sandbox. The attempts succeed in an unconfined program, and fail in a plugin of any user.
 
 use std::net::{TcpListener, UdpSocket};
 use std::os::unix::process::CommandExt;
@@ -9,7 +9,7 @@ use taceva_host::Patience;
 
 use crate::plugin::{Plugin, capture, sensor};
 
-/// Attempts, in the order of `escapes.h`.
+/// Attempts to leave the sandbox, in the order of `escapes.h`.
 const ESCAPES: [&str; 18] = [
     "read a foreign file",
     "write outside",
@@ -31,7 +31,7 @@ const ESCAPES: [&str; 18] = [
     "take files of the parent",
 ];
 
-/// Targets of the attempts.
+/// Files and servers that the attempts to leave the sandbox try to reach.
 struct Targets {
     folder: tempfile::TempDir,
     tcp: TcpListener,
@@ -118,7 +118,7 @@ fn every_way_out_is_open_to_a_program_and_closed_to_a_plugin() {
     assert!(!targets.outside().exists());
 }
 
-/// Repeats the test above as a user who owns nothing, if the present user may switch to that user.
+/// Repeats the attempts as a user who owns nothing, if the present user may switch to that user.
 #[test]
 fn every_way_out_is_closed_to_a_plugin_of_a_normal_user_too() {
     if !rustix::process::geteuid().is_root() {

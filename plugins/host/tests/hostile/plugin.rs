@@ -20,7 +20,7 @@ pub(crate) const ROBOT: DriverKey = DriverKey::fixed("org.example.hostile/robot"
 /// Force transducer of the plugin.
 pub(crate) const FORCE: DriverKey = DriverKey::fixed("org.example.hostile/force");
 
-/// Program of the child.
+/// Path of the program that runs as the child process.
 pub(crate) const CHILD: &str = env!("CARGO_BIN_EXE_taceva-host-child");
 
 const FRAME: FrameInfo = FrameInfo {
@@ -59,7 +59,7 @@ pub(crate) struct Plugin {
 }
 
 impl Plugin {
-    /// Builds a plugin that misbehaves as `way` names, with the compiler options `defines`.
+    /// Builds a plugin with the misbehaviour `way` and the compiler options `defines`.
     pub(crate) fn build(way: &str, defines: &[String]) -> Plugin {
         let folder = tempfile::tempdir().expect("a folder");
         let mut header = String::new();

@@ -11,19 +11,19 @@ use crate::plugin::{FORCE, LONG, Plugin, ROBOT, capture, sensor};
 /// Action on the plugin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Do {
-    /// Only loads it.
+    /// Loads the plugin only.
     Load,
-    /// Opens its sensor and closes it again.
+    /// Opens the sensor and closes it again.
     Open,
     /// Takes two frames.
     Capture,
-    /// Interrupts its sensor, and takes a frame.
+    /// Interrupts the sensor, and takes a frame.
     Interrupt,
     /// Reads the force.
     Read,
     /// Reads the pose of the robot.
     Pose,
-    /// Moves, and halts during the motion.
+    /// Moves the robot, and halts it during the motion.
     Halt,
 }
 

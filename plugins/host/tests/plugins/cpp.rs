@@ -1,4 +1,4 @@
-//! Devices of each kind, built with the C++ helpers and every warning as an error, pass all suites.
+//! Devices of each kind, built with the C++ helpers and every warning as an error, pass all conformance suites.
 
 use std::path::PathBuf;
 use std::sync::Arc;

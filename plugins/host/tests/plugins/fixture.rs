@@ -119,7 +119,7 @@ pub(crate) fn cpp(name: &str, children: &Children) -> Option<TempDir> {
     Some(folder)
 }
 
-/// Folder with the plugin.
+/// Folder with the built test plugin.
 pub(crate) struct Fixture {
     folder: TempDir,
 }

@@ -1,5 +1,5 @@
-//! Each need, tested by a plugin that uses it. Without permission, it is denied with the command that allows it. With permission, it succeeds. All
-//! other needs are allowed meanwhile, so a test also shows that none of them grants this access.
+//! Access to each needed resource, tested by a plugin that uses it. Without permission, the access fails with the command that allows it. With
+//! permission, the access succeeds. All other needs are allowed meanwhile, so a test also shows that none of them grants this access.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -20,7 +20,7 @@ const ID: &str = "org.example.reach";
 /// Device number of a character device that any user may open: `fuse`.
 const OPENED_BY_ANYBODY: (u32, u32) = (10, 229);
 
-/// The plugin and its needs.
+/// Built test plugin and its needs.
 struct Reach {
     folder: TempDir,
     needs: Vec<String>,
@@ -93,7 +93,7 @@ optional = true
         })
     }
 
-    /// Opens the lamp with `arguments` and the needs in `allowed`. The error is a message.
+    /// Opens the lamp of the plugin with `arguments` and the needs in `allowed`. The error is a message.
     fn opened(&self, arguments: &str, allowed: &BTreeSet<Need>) -> Result<(), String> {
         let path = SearchPath::empty().given([self.folder.path().to_owned()]);
         let mut config = PluginConfig::default();
@@ -117,7 +117,7 @@ optional = true
         others.map(|need| need.parse().expect("a need")).collect()
     }
 
-    /// Checks that `arguments` are denied without `need`, and that the suggested command allows them.
+    /// Checks that a lamp with `arguments` is denied without `need`, and that the suggested command allows it.
     fn proves(&self, need: &str, arguments: &str) {
         let mut allowed = self.all_but(need);
         let why = self.opened(arguments, &allowed);
@@ -146,7 +146,7 @@ impl Drop for Removed {
     }
 }
 
-/// Creates a device file for all users; `None` if this user may not.
+/// Creates a device file for all users; `None` if this user may not create it.
 fn device(path: &str) -> Option<Removed> {
     let (major, minor) = OPENED_BY_ANYBODY;
     let mode = Mode::from_raw_mode(0o666);

@@ -1,4 +1,4 @@
-//! Linked drivers of a program as a session. A child serves it if no library is loaded.
+//! Session of the drivers that are linked into a program. A child that loads no library serves this session.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 

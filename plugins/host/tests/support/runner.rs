@@ -3,7 +3,7 @@
 use std::panic::catch_unwind;
 use std::process::ExitCode;
 
-/// A test by name.
+/// Name and function of a test.
 pub(crate) type Test = (&'static str, fn());
 
 /// Runs the selected tests in order. Arguments select tests by parts of their names; arguments after `--skip` exclude tests.

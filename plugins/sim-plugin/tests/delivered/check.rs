@@ -8,7 +8,7 @@ use tempfile::TempDir;
 
 use crate::built::{Delivery, host, lay_bench, lay_c};
 
-/// Number of checks of the only plugin of `host`, and the broken promises.
+/// Number of executed checks of the only plugin of `host`, and the failed checks with their reasons.
 fn checked(host: &Arc<PluginHost>) -> (usize, Vec<String>) {
     let plugin = host.plugins().iter().next().expect("one plugin");
     let mut made = 0;

@@ -28,7 +28,7 @@ const RUST_BUILDS: [(&str, &[&str]); 2] = [
     ("native", &["-Ctarget-cpu=native", "-Copt-level=3"]),
 ];
 
-/// Installs each possible build of the C example in a separate folder. Returns their words.
+/// Installs each possible build of the C example in a separate folder. Returns the words in the ids of these plugins.
 fn lay_all_c(folder: &Path) -> Vec<&'static str> {
     C_BUILDS
         .into_iter()
@@ -69,7 +69,7 @@ pub(crate) fn plugins_of_different_languages_and_flags_keep_their_contracts_in_o
 
 /// Number of frames and readings from each plugin, taken in turn.
 const ROUNDS: usize = 5;
-/// Long enough for a busy machine.
+/// Deadline that suffices on a busy machine.
 const PATIENT: Deadline = Deadline::after(std::time::Duration::from_secs(20));
 
 /// A sensor and a force transducer of one plugin, and their data.

@@ -14,7 +14,7 @@ use super::press::{Press, Presses};
 pub(crate) enum Law {
     /// Cameras of the bench, each with one lit lamp. The strength of each lamp in each colour is fitted. Lamps have the same places as in the bench.
     Lamps(Vec<Camera>),
-    /// Powers of the surface normal, up to the second, times 1, x and y.
+    /// Powers of the surface normal, up to the second, each times 1, x and y of the pixel.
     Polynomial(Tables),
 }
 
@@ -72,7 +72,7 @@ impl Law {
         }
     }
 
-    /// Terms for one press.
+    /// Terms of the law for one press.
     pub(crate) fn terms(
         &self,
         press: &Press,

@@ -4,9 +4,9 @@ use super::press::Picture;
 
 /// Three measures of similarity, over all pixels and colours.
 pub(crate) struct Likeness {
-    /// Mean absolute difference, in DN.
+    /// Mean absolute difference over pixels and colours, DN.
     l1_dn: f64,
-    /// Peak signal-to-noise ratio, 20 log₁₀(255 / RMS), in dB.
+    /// Peak signal-to-noise ratio, 20 log₁₀(255 / RMS difference), in dB.
     psnr_db: f64,
     /// Mean structural similarity (Wang, Bovik, Sheikh and Simoncelli 2004): Gaussian window of σ = 1.5 pixels cut at 5, K₁ = 0.01, K₂ = 0.03.
     ssim: f64,
@@ -84,7 +84,7 @@ fn smoothed(plane: &[f64], width: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Means over presses, with 95 % confidence intervals by Student's t.
+/// Mean of each measure over presses, with its 95 % confidence interval by Student's t.
 pub(crate) fn summary(presses: &[Likeness]) -> String {
     let row = |of: fn(&Likeness) -> f64, digits: usize| {
         let count = presses.len() as f64;

@@ -20,7 +20,7 @@ pub(crate) struct Picture {
 /// Columns and rows of a part of a picture.
 pub(crate) type Window = [Range<usize>; 2];
 
-/// One press.
+/// Press of the ball: its picture and its contact.
 pub(crate) struct Press {
     pub(crate) picture: Picture,
     /// Centre and radius of the contact, pixels from the upper left corner.
@@ -46,7 +46,7 @@ impl Picture {
         self.dn.len() / (3 * self.width)
     }
 
-    /// Picture with `change` added, clipped to 8 bits.
+    /// Copy of this picture with `change` added, DN, clipped to 8 bits.
     pub(crate) fn changed(&self, change: &[f64]) -> Picture {
         let changed = self.dn.iter().zip(change);
         Picture {
@@ -57,7 +57,7 @@ impl Picture {
         }
     }
 
-    /// Part of the picture.
+    /// Part of the picture within `columns` and `rows`.
     pub(crate) fn cut(&self, [columns, rows]: &Window) -> Picture {
         let row =
             |row: usize| &self.dn[3 * (row * self.width + columns.start)..][..3 * columns.len()];
@@ -104,7 +104,7 @@ impl Presses {
         [self.background.width, self.background.height()].map(|pixels| pixels as f64 * PIXEL_MM)
     }
 
-    /// Difference between the picture of the press and the background.
+    /// Picture of the press minus the picture of the untouched gel, DN, three colours per pixel.
     pub(crate) fn change(&self, press: &Press) -> Vec<f64> {
         let pairs = press.picture.dn.iter().zip(&self.background.dn);
         pairs

@@ -1,7 +1,7 @@
 //! Contact of a ball with a skin over a soft hemisphere.
 //!
-//! F(d) = k₁ d + k₂ d^(3/2) along the line through both centres: the buckled point stiffness of the skin, and Hertz's law of the gel. A ball off the
-//! apex meets the dome at an angle. Such a ball presses less along the normal and slides, so that the rim appears softer.
+//! The force is F(d) = k₁ d + k₂ d^(3/2) at the depth d along the line through both centres: the buckled point stiffness of the skin, and Hertz's law
+//! of the gel. A ball off the apex meets the dome at an angle. Such a ball presses less along the normal and slides, so that the rim appears softer.
 
 use super::indentation::Indentation;
 use super::stand::{Answer, Stand, dot};
@@ -11,7 +11,7 @@ use crate::parameters::Dome;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DomeLaw {
     dome: Dome,
-    /// 1 / √R of the ball for which the gel stiffness is specified.
+    /// 1 / √R for the relative radius R of the dome and the ball for which the gel stiffness is specified.
     inverse_root_stated: f64,
 }
 

@@ -13,25 +13,25 @@ pub struct Friction {
 }
 
 impl Friction {
-    /// Displacement at which the whole contact slides: 3 μF / (2 k₀).
+    /// Displacement at which the whole contact slides: 3 μF / (2 k₀), with the sliding force μF and the initial stiffness k₀.
     pub fn sliding_begins_mm(&self) -> f64 {
         1.5 * self.limit_n / self.stiffness_n_per_mm
     }
 
-    /// Force at the displacement s of a first loading: Q(s) = μF [1 − (1 − s/s_max)^(3/2)], with s_max of
-    /// [`sliding_begins_mm`](Friction::sliding_begins_mm); μF beyond s_max.
+    /// Force at the displacement s of a first loading with the sliding force μF: Q(s) = μF [1 − (1 − s/s_max)^(3/2)], where s_max is
+    /// [`sliding_begins_mm`](Friction::sliding_begins_mm). The force is μF beyond s_max.
     pub fn load(&self, displacement_mm: f64) -> f64 {
         self.resist(displacement_mm / self.sliding_begins_mm())
     }
 
-    /// Force at the displacement s after the reversal at s* = `turned_mm`: Q(s) = Q(s*) − 2 μF [1 − (1 − (s* − s)/(2 s_max))^(3/2)], at least −μF,
-    /// with s_max of [`sliding_begins_mm`](Friction::sliding_begins_mm).
+    /// Force at the displacement s after the reversal at s* = `turned_mm`: Q(s) = Q(s*) − 2 μF [1 − (1 − (s* − s)/(2 s_max))^(3/2)], at least −μF.
+    /// The force μF is the sliding force, and s_max is [`sliding_begins_mm`](Friction::sliding_begins_mm).
     pub fn unload(&self, turned_mm: f64, displacement_mm: f64) -> f64 {
         let back = (turned_mm - displacement_mm) / (2.0 * self.sliding_begins_mm());
         (self.load(turned_mm) - 2.0 * self.resist(back)).max(-self.limit_n)
     }
 
-    /// Stick radius divided by the contact radius at the force Q: (1 − |Q|/μF)^(1/3).
+    /// Stick radius divided by the contact radius at the force Q: (1 − |Q|/μF)^(1/3), with the sliding force μF.
     pub fn stick_ratio(&self, force_n: f64) -> f64 {
         libm::cbrt((1.0 - force_n.abs() / self.limit_n).max(0.0))
     }

@@ -9,10 +9,10 @@ pub struct Indentation {
     pub depth_mm: f64,
     /// Maximum depth that was reached. It exceeds `depth_mm` during unloading.
     pub deepest_mm: f64,
-    /// Shear along the surface, at depth.
+    /// Displacement of the ball along the surface after the indentation.
     pub shear_mm: [f64; 2],
     /// Radius of the ball.
     pub indenter_radius_mm: f64,
-    /// Stiffness of the gel here, relative to its nominal stiffness.
+    /// Stiffness of the gel at `place_mm`, relative to its nominal stiffness.
     pub stiffness: f64,
 }

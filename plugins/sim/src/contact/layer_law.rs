@@ -5,8 +5,8 @@ use super::stand::Answer;
 use crate::elastic::layer;
 use crate::parameters::Layer;
 
-/// Force law F = (16/9) E √R d^(3/2) ψ(χ) (1 + d/d₀) at the depth d of a ball of radius R, with Young's modulus E and ψ of [`layer::force_ratio`].
-/// The last factor is the stiffening of a closing lattice.
+/// Force law F = (16/9) E √R d^(3/2) ψ(χ) (1 + d/d₀) for a ball of radius R at the depth d, with Young's modulus E. The thickness of the gel enters
+/// by ψ(χ), [`layer::force_ratio`] of [`layer::chi`]. The last factor is the stiffening of a closing lattice over the length d₀.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LayerLaw {
     layer: Layer,
@@ -24,7 +24,7 @@ impl LayerLaw {
         }
     }
 
-    /// Force of a flat board, and the effective modulus of the gel.
+    /// Force of a flat board, N, and the effective modulus of the gel, MPa.
     pub(super) fn board(&self, depth_mm: f64) -> (f64, f64) {
         let stiffening = 1.0 + self.layer.stiffening_per_mm * depth_mm;
         (

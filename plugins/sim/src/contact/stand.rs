@@ -1,6 +1,6 @@
 //! Input and output of the contact laws.
 
-/// Position of a ball in a body, for both laws.
+/// Position of a ball in a body, for the layer law and for the dome law.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stand {
     /// Indentation along the normal.

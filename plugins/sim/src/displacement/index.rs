@@ -1,17 +1,18 @@
 //! Index of a radius in a table: fine near the contact, proportionally coarser farther out.
 //!
-//! Tables are indexed by t = 1 + (r/a)². Each octave of t has equal cells, out to 64 contact radii. The bits of the number give the position in the octave,
-//! without logarithm or square root. The rim of the contact, t = 2, is a node, so that a kink at the rim is exact.
+//! Tables are indexed by t = 1 + (r/a)², with the radius r and the contact radius a. Each octave of t has equal cells, out to 64 contact radii. The
+//! bits of the number give the position in the octave, without logarithm or square root. The rim of the contact, t = 2, is a node, so that a kink at
+//! the rim is exact.
 
 /// Number of cells in an octave; a power of two.
 const CELLS: usize = 1 << CELL_BITS;
 const CELL_BITS: u32 = 6;
-/// Number of octaves of t.
+/// Number of octaves of t = 1 + (r/a)² in a table, for the radius r and the contact radius a.
 const OCTAVES: usize = 12;
 /// Number of values in a table: one at each node, from the centre to 64 contact radii.
 pub const NODES: usize = OCTAVES * CELLS + 1;
 
-/// A function of r², with a value at each [`node`].
+/// A function of the squared radius, with a value at each [`node`].
 pub type Radial = [f32; NODES];
 
 /// Bits of the fraction in a binary32.
@@ -28,7 +29,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// Value of `table` here, linear in r² between nodes.
+    /// Value of `table` at this position, linear in r² between nodes.
     #[inline(always)]
     pub fn of(self, table: &Radial) -> f32 {
         let below = table[self.cell];
@@ -36,7 +37,7 @@ impl Place {
     }
 }
 
-/// Position of t = 1 + (r/a)². Values beyond the table give the end of the table.
+/// Position of t = 1 + (r/a)² in a table, for the radius r and the contact radius a. Values beyond the table give the end of the table.
 ///
 /// ```
 /// use taceva_sim::displacement::{locate, node};
@@ -61,7 +62,7 @@ pub fn locate(t: f32) -> Place {
     }
 }
 
-/// Value of t at a node.
+/// Value of t = 1 + (r/a)² at a node, for the radius r and the contact radius a.
 pub fn node(position: usize) -> f64 {
     let octave = i32::try_from(position / CELLS).expect("tables have few octaves");
     let within = (position % CELLS) as f64 / CELLS as f64;

@@ -29,13 +29,13 @@ impl Profile {
         }
     }
 
-    /// Table of one function, with a value at each [`node`]. [`Quantity::Sink`] and [`Quantity::Along`] are in mm; each division by r and each
-    /// derivative divides the unit by mm.
+    /// Table of one function, with a value at each [`node`]. [`Quantity::Sink`] and [`Quantity::Along`] are in mm; each division by the radius and
+    /// each derivative divides the unit by mm.
     pub fn table(&self, quantity: Quantity) -> &Radial {
         &self.tables[quantity as usize]
     }
 
-    /// 1/a² in 1/mm². The argument of [`locate`] is t = 1 + r² times this value.
+    /// 1/a² for the contact radius a, 1/mm². The argument of [`locate`] at the radius r is t = 1 + r² times this value.
     pub fn inverse_radius_squared(&self) -> f32 {
         self.inverse_radius_squared
     }
@@ -97,7 +97,7 @@ impl Profile {
     }
 }
 
-/// Node of the contact's rim, t = 2.
+/// Node at the rim of the contact, where the radius equals the contact radius.
 const RIM: usize = (NODES - 1) / 12;
 
 #[cfg(test)]

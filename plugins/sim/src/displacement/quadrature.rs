@@ -23,7 +23,7 @@ pub(super) type Values = [f64; Quantity::ALL.len()];
 
 /// Poisson's ratio of an incompressible gel, as assumed by the force laws.
 const POISSON_RATIO: f64 = 0.5;
-/// 2(1 − ν²)/E at unit modulus; the next constant is 1/G.
+/// Compliance 2(1 − ν²)/E for Poisson's ratio ν and a Young's modulus E of 1; the next constant is 1/G, with the shear modulus G.
 const NORMAL_COMPLIANCE: f64 = 1.5;
 const SHEAR_COMPLIANCE: f64 = 3.0;
 /// Upper end of the integral on the surface, where the correction of the layer has decayed by e^(−28).
@@ -32,13 +32,13 @@ const ZETA_MAX: f64 = 14.0;
 const ATTENUATION_MAX: f64 = 30.0;
 /// Minimum number of panels. It resolves the decay of an integrand that does not oscillate.
 const LEAST_PANELS: f64 = 10.0;
-/// Relative blur far from the contact, where the field varies over lengths like r. A blur of 3 % of r changes the field by 5·10⁻⁴ and ends the
-/// integral at k r = 150, the next constant, with the wave number k.
+/// Relative blur far from the contact, where the field varies over lengths like the distance r. A blur of 3 % of r changes the field by 5·10⁻⁴. The
+/// blur ends the integral at k r = 150, the next constant, with the wave number k.
 const BLUR: f64 = 0.03;
 const ARGUMENT_MAX: f64 = 150.0;
 
 impl Layer {
-    /// Integrates the numerical part at `rho` contact radii from the centre.
+    /// Integrates the part without a closed form at `rho` contact radii from the centre.
     pub(super) fn integral(&self, rho: f64) -> Values {
         let on_surface = self.depth <= 0.0;
         let natural = if on_surface {
@@ -121,7 +121,7 @@ impl Layer {
     }
 }
 
-/// J₀(kρ), J₁(kρ)/ρ and J₂(kρ)/ρ², finite at the centre.
+/// Bessel functions J₀(kρ), J₁(kρ)/ρ and J₂(kρ)/ρ² at the wave number `k`, finite at the centre.
 fn bessel(k: f64, rho: f64) -> [f64; 3] {
     let x = k * rho;
     if x < 1e-3 {
@@ -142,7 +142,7 @@ fn bessel(k: f64, rho: f64) -> [f64; 3] {
     [j0, j1 / rho, j2 / (rho * rho)]
 }
 
-/// Spectrum of Hertz's pressure of unit force: 3 (sin k − k cos k)/k³.
+/// Spectrum of Hertz's pressure of unit force at the wave number k: 3 (sin k − k cos k)/k³.
 fn hertz_spectrum(k: f64) -> f64 {
     if k < 0.05 {
         return 1.0 - k * k / 10.0 * (1.0 - k * k / 28.0);
@@ -151,7 +151,7 @@ fn hertz_spectrum(k: f64) -> f64 {
     3.0 * (sin - k * cos) / (k * k * k)
 }
 
-/// Spectrum of the shear of unit force without slip: sin k / k.
+/// Spectrum of the shear of unit force without slip at the wave number k: sin k / k.
 fn punch_spectrum(k: f64) -> f64 {
     if k < 1e-4 { 1.0 } else { libm::sin(k) / k }
 }

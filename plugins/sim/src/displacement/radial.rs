@@ -6,17 +6,17 @@
 pub enum Quantity {
     /// Depth of the surface under pressure, into the gel.
     Sink,
-    /// Derivative of the depth with respect to r, divided by r.
+    /// Derivative of the depth with respect to the radius r, divided by r.
     SinkSlope,
-    /// Outward displacement under pressure, divided by r.
+    /// Outward displacement under pressure, divided by the radius r.
     Outward,
     /// Displacement along the shear direction that is independent of the angle: A₀ + A₂, the Hankel integrals of orders 0 and 2.
     Along,
-    /// Displacement towards the axis of the shear, divided by r²: 2 A₂/r², with the Hankel integral A₂ of order 2.
+    /// Displacement towards the axis of the shear, divided by the squared radius r²: 2 A₂/r², with the Hankel integral A₂ of order 2.
     Radial,
-    /// Height of the bulge in front of the shear on its axis, divided by r.
+    /// Height of the bulge ahead of the shear, on the axis of the shear, divided by the radius r.
     Bulge,
-    /// Derivative with respect to r of the bulge over r, divided by r.
+    /// Derivative of the bulge over r with respect to the radius r, divided by r.
     BulgeSlope,
 }
 

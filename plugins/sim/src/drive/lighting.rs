@@ -89,7 +89,7 @@ impl Lighting for Lamps {
     }
 }
 
-/// Names of the scenes. The calibration scene is the first.
+/// Names of the light scenes. The calibration scene is the first.
 pub(super) fn scenes() -> Vec<String> {
     AmbientLight::ALL
         .map(|light| light.name().to_owned())

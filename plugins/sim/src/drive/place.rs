@@ -40,7 +40,7 @@ pub(super) fn point_of(place_mm: [f64; 2]) -> u64 {
     names(nanometres(place_mm)).bits(0)
 }
 
-/// Stream of the keys of a place and of its visits.
+/// Random stream of the keys of a place and of its visits.
 fn names(place: [Nanometre; 2]) -> Stream {
     let [x, y] = place.map(|side| side.0.cast_unsigned());
     Random::new(x).stream(Purpose::Draws, y)

@@ -47,7 +47,7 @@ impl SimulatedRig {
         self.state().now()
     }
 
-    /// Advances the clock.
+    /// Advances the clock by `rest`.
     pub fn rest(&self, rest: Duration) {
         self.state().rest(rest);
     }

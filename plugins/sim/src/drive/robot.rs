@@ -82,7 +82,8 @@ impl Factory<dyn Robot> for RobotFactory {
     }
 }
 
-/// Arguments of the robot. `gel` is for a sensor that this bench does not simulate. The gel determines the forces, but pictures do not show the gel.
+/// Arguments of the robot. The argument `gel` names a gel for a sensor that this bench does not simulate. The gel determines the forces, but pictures
+/// do not show the gel.
 fn arguments() -> [ArgSpec; 3] {
     let gels = Model::ALL.map(Model::key);
     [

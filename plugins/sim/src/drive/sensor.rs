@@ -43,8 +43,8 @@ impl SensorFactory {
         })
     }
 
-    /// Parameters of the table in the argument `table`, by default the table of the model: with the fault that `args` request, quiet for `quiet`, and
-    /// aged for `ages`.
+    /// Parameters of the table in the argument `table`, by default the table of the model. The arguments for gel faults, `quiet` and `ages` change
+    /// these parameters.
     fn parameters(&self, args: &Args) -> Result<Parameters, String> {
         let table = args.get("table").and_then(ArgValue::as_text);
         let table = table.unwrap_or(self.model.table());

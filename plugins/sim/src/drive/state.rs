@@ -43,7 +43,7 @@ pub(super) struct State {
     tare_n: [f64; 3],
     visits: Visits,
     visit: Visit,
-    /// Name of the next visits; `None` if visits are counted.
+    /// Name that replaces the number of the next visits in their random numbers; `None` if visits are counted.
     name: Option<u64>,
     /// Earliest start of the next visit.
     appointment: Ticks,

@@ -6,7 +6,7 @@
 
 use std::f64::consts::PI;
 
-/// Reduced modulus E* = E / (1 − ν²), in the unit of `young_modulus`.
+/// Reduced modulus E* = E / (1 − ν²) for Young's modulus E and Poisson's ratio ν, in the unit of `young_modulus`.
 pub fn reduced_modulus(young_modulus: f64, poisson_ratio: f64) -> f64 {
     young_modulus / (1.0 - poisson_ratio * poisson_ratio)
 }
@@ -16,12 +16,12 @@ pub fn relative_radius(first_mm: f64, second_mm: f64) -> f64 {
     first_mm * second_mm / (first_mm + second_mm)
 }
 
-/// Contact radius a = √(R d), in mm.
+/// Contact radius √(R d) of a ball of radius R at the depth d, in mm.
 pub fn contact_radius(radius_mm: f64, depth_mm: f64) -> f64 {
     (radius_mm * depth_mm).sqrt()
 }
 
-/// Normal force F = (4/3) E* √R d^(3/2), in N.
+/// Normal force (4/3) E* √R d^(3/2) on a ball of radius R at the depth d, in N, for the reduced modulus E*.
 pub fn force(reduced_modulus_mpa: f64, radius_mm: f64, depth_mm: f64) -> f64 {
     4.0 / 3.0 * reduced_modulus_mpa * radius_mm.sqrt() * depth_mm * depth_mm.sqrt()
 }

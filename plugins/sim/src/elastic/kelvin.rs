@@ -28,7 +28,8 @@ pub fn kei(x: f64) -> f64 {
     }
 }
 
-/// kei x = −ln(x/2) bei x − (π/4) ber x + Σ (−1)ᵏ ψ(2k+2) (x²/4)^(2k+1) / ((2k+1)!)².
+/// Power series of kei: −ln(x/2) bei x − (π/4) ber x + Σ (−1)ᵏ ψ(2k+2) (x²/4)^(2k+1) / ((2k+1)!)², with Kelvin's functions ber and bei and the
+/// digamma function ψ.
 fn series(x: f64) -> f64 {
     let quarter = 0.25 * x * x;
     let logarithm = libm::log(0.5 * x);
@@ -48,7 +49,7 @@ fn series(x: f64) -> f64 {
     sum
 }
 
-/// Imaginary part of √(π/2z) e^(−z) Σ aₖ z^(−k) at z = x e^(iπ/4), aₖ = −aₖ₋₁ (2k−1)² / 8k.
+/// Asymptotic series of kei: the imaginary part of √(π/2z) e^(−z) Σ aₖ z^(−k) at z = x e^(iπ/4), with a₀ = 1 and aₖ = −aₖ₋₁ (2k−1)² / 8k.
 fn asymptotic(x: f64) -> f64 {
     let along = x * FRAC_1_SQRT_2;
     let (mut coefficient, mut sum) = (1.0, 0.0);

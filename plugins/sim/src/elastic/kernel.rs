@@ -7,7 +7,7 @@
 //! * shear across the wave → across it: T/(G k),  T = tanh ζ;
 //! * pressure → displacement along the wave, and shear → normal: N/(G k),  N = [2ζ² − κ(κ−1)/2 (cosh 2ζ − 1)]/D.
 //!
-//! Numerators and D are multiplied by e^(−2ζ), so that short waves do not overflow.
+//! E is Young's modulus, G the shear modulus and ν Poisson's ratio. Numerators and D are multiplied by e^(−2ζ), so that short waves do not overflow.
 //!
 //! # Reference
 //! Plane-strain solution of a layer without displacement at its base; derived here, checked against numerical integration.

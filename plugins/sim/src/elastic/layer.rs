@@ -4,25 +4,25 @@
 //! corrections are fits to a boundary-element solution of the layer's kernel for ν = 1/2 (200 rings, converged to 3·10⁻⁶). The fits are valid up to χ
 //! = 1.2. The polynomials published by Dimitriadis et al. (Biophysical Journal 82, 2002) are lower: by 3.4 % at χ = 1/3 and by 16 % at χ = 1.
 
-/// Maximum χ of the fits.
+/// Maximum χ = √(R d)/h of the fits, see [`chi`].
 pub const CHI_MAX: f64 = 1.2;
 
-/// Ratio χ = √(R d)/h of the contact radius to the thickness.
+/// Ratio χ = √(R d)/h of the half-space contact radius to the thickness h, for a ball of radius R at the depth d.
 pub fn chi(radius_mm: f64, depth_mm: f64, thickness_mm: f64) -> f64 {
     (radius_mm * depth_mm).sqrt() / thickness_mm
 }
 
-/// ψ: force relative to a half-space, (16/9) E √R d^(3/2); within 0.2 %.
+/// Force on a layer divided by the force (16/9) E √R d^(3/2) on a half-space, ψ(χ). The error is at most 0.2 %.
 pub fn force_ratio(chi: f64) -> f64 {
     1.0 + chi * (1.114_94 + chi * (1.438_65 + chi * (2.261_61 - chi * 0.693_33)))
 }
 
-/// a/a_H: contact radius relative to √(R d); within 0.008.
+/// Contact radius on a layer divided by the contact radius √(R d) on a half-space. The error is at most 0.008.
 pub fn radius_ratio(chi: f64) -> f64 {
     1.0 + chi * (0.462_41 + chi * (0.081_44 - chi * 0.128_73))
 }
 
-/// ψ_t: tangential stiffness relative to a half-space, (16/9) a E; within 10⁻⁴ up to χ = 1.
+/// Tangential stiffness on a layer divided by that on a half-space, (16/9) a E with the contact radius a. The error is at most 10⁻⁴ up to χ = 1.
 pub fn shear_ratio(chi: f64) -> f64 {
     1.0 + chi * (0.438_59 + chi * (0.215_72 - chi * 0.055_95))
 }

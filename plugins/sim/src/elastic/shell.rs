@@ -1,13 +1,13 @@
 //! A shallow spherical shell under a point load.
 //!
 //! # Reference
-//! Reissner (1946): stiffness 4 E t² / (R √(3 (1 − ν²))) at radius R and thickness t. At arc length s, the dimple has −(4/π) kei(s/l) of its depth
-//! under the load, with the decay length l.
+//! Reissner (1946): stiffness 4 E t² / (R √(3 (1 − ν²))) at radius R and thickness t, with Young's modulus E and Poisson's ratio ν. At arc length s,
+//! the dimple has −(4/π) kei(s/l) of its depth under the load, with the decay length l.
 
 use super::kelvin;
 use std::f64::consts::FRAC_PI_4;
 
-/// Decay length of a dimple: l = √(R t) / (12 (1 − ν²))^(1/4), in mm.
+/// Decay length of a dimple in a shell of radius R and thickness t: √(R t) / (12 (1 − ν²))^(1/4), in mm.
 pub fn decay_length(radius_mm: f64, thickness_mm: f64, poisson_ratio: f64) -> f64 {
     (radius_mm * thickness_mm).sqrt() / (12.0 * (1.0 - poisson_ratio * poisson_ratio)).sqrt().sqrt()
 }

@@ -11,13 +11,13 @@ pub enum AmbientLight {
     /// Light of the sensor only, as in calibration.
     #[default]
     Normal,
-    /// S1: a diffuse ceiling.
+    /// Scene S1: diffuse light from the ceiling.
     Ceiling,
-    /// S2: a wide beam from the side.
+    /// Scene S2: a wide beam from the side.
     WideBeam,
-    /// S3: a ring below the sensor.
+    /// Scene S3: a ring of light below the sensor.
     Ring,
-    /// S4: a narrow spot.
+    /// Scene S4: a narrow spot of light.
     Spot,
 }
 
@@ -31,7 +31,7 @@ impl AmbientLight {
         AmbientLight::Spot,
     ];
 
-    /// Name in tables.
+    /// Name of the scene in tables of results.
     pub const fn name(self) -> &'static str {
         match self {
             AmbientLight::Normal => "normal",

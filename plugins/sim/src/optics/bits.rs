@@ -15,10 +15,10 @@ pub enum Bits {
 }
 
 impl Bits {
-    /// Both depths.
+    /// Both numbers of bits.
     pub const ALL: [Bits; 2] = [Bits::Eight, Bits::Sixteen];
 
-    /// Name in arguments.
+    /// Name in the arguments of a driver.
     pub const fn name(self) -> &'static str {
         match self {
             Bits::Eight => "8",

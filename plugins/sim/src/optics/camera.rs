@@ -44,12 +44,12 @@ pub struct Camera {
     /// Inputs for computing the gel. The gel is computed at first use, because its tables are expensive.
     unmade: (GelSpec, Raster, u32),
     gel: Option<Gel>,
-    /// Rows of a band, and its buffer.
+    /// Number of rows of a band; the next field is the buffer of a band.
     band_rows: usize,
     light: Vec<f32>,
 }
 
-/// Values in a band: as many as fit into the first-level cache.
+/// Number of values in a band: as many as fit into the first-level cache.
 const BAND: usize = 6144;
 
 impl Camera {

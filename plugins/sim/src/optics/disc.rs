@@ -7,13 +7,13 @@ use crate::number::{count, narrow};
 /// Attenuation by a disc, as a function of the squared distance from its centre.
 #[derive(Clone, Debug)]
 pub(super) struct Disc {
-    /// Remaining light, from the centre to the reach.
+    /// Share of the light that passes, by squared distance from the centre.
     left: [f32; BINS + 1],
     bins_per_square: f32,
     reach: f32,
 }
 
-/// Parameters of a disc, in the field's unit.
+/// Parameters of a disc. Lengths have the unit of the raster.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DiscSpec {
     /// Radius at which the darkness is half of the darkness at the centre.

@@ -18,9 +18,9 @@ pub enum OpticsError {
         width: u32,
         /// Requested height, pixels.
         height: u32,
-        /// Full width, pixels.
+        /// Width of the full-size frame, pixels.
         native_width: u32,
-        /// Full height, pixels.
+        /// Height of the full-size frame, pixels.
         native_height: u32,
     },
     /// The buffer does not match the frames of the camera.

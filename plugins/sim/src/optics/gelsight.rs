@@ -48,7 +48,7 @@ struct Scene {
     /// Reflectance of the coating at each pixel.
     reflectance: Vec<f32>,
     tables: Arc<Tables>,
-    /// Untouched gel without markers.
+    /// Picture of the untouched gel without markers.
     background: Vec<f32>,
     disc: Option<Disc>,
     markers: Vec<[f32; 2]>,

@@ -26,7 +26,7 @@ impl Luma {
         }
     }
 
-    /// Adds a row of `pixels` pixels from `sums` by lane. Lane i has colour i modulo 3.
+    /// Adds a row of `pixels` pixels. `sums` has one sum per lane, and lane i contains colour i modulo 3.
     pub(super) fn add_row(&mut self, sums: &[u32], channels: usize, pixels: usize) {
         for (lane, sum) in sums.iter().enumerate() {
             let weight = if channels == 1 {

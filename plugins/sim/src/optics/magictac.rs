@@ -202,7 +202,7 @@ impl Magictac {
         }
     }
 
-    /// Pixels of a row.
+    /// Borrows the pixels `columns` of a row, with their light sources.
     #[inline(always)]
     fn stretch<'a>(
         &'a self,

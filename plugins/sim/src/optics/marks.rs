@@ -9,7 +9,7 @@ use crate::parameters::GelWear;
 use crate::random::{Purpose, Random, Stream};
 use taceva_core::whole_size;
 
-/// Part of the half field in which marks lie.
+/// Fraction of half the field of view in which marks lie.
 const INSIDE: f64 = 0.8;
 /// Absorbed light at the centre of a mark; below 0 for a bright mark. By kind: scratch, tear, dust.
 const DARKNESS: [f64; 3] = [-0.6, 0.8, 0.6];
@@ -24,7 +24,7 @@ const EDGE: f64 = 0.002;
 pub(super) struct Marks {
     /// Places on the untouched gel, mm.
     pub(super) places_mm: Vec<[f64; 2]>,
-    /// Disc of each place.
+    /// Index of the disc at each place.
     kinds: Vec<usize>,
     discs: Vec<Disc>,
 }

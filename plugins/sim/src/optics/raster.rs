@@ -9,7 +9,7 @@ use crate::number::narrow;
 pub(super) struct Raster {
     pub(super) width: usize,
     pub(super) height: usize,
-    /// Width and height of a pixel, in the field's unit.
+    /// Width and height of a pixel, in the unit of the field of view.
     pub(super) pitch: [f32; 2],
 }
 

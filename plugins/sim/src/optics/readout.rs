@@ -11,7 +11,7 @@ use super::noise::RowNoise;
 /// The linear camera model of EMVA 1288 without dark current.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Readout {
-    /// Factor 1 + e of the flicker.
+    /// Factor 1 + e for the flicker e of the frame.
     pub(super) gain: f32,
     /// Gain g of the shot noise, DN.
     pub(super) shot: f32,

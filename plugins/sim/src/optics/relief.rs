@@ -30,7 +30,8 @@ pub(super) struct Window {
 /// * A pixel of side p passes sin(k p/2) / (k p/2), the same in every direction.
 #[derive(Clone, Debug)]
 pub(super) struct Relief {
-    /// Amplitude of harmonics 1, 3 and 5 along u, for each harmonic along v, within ±1. Lines use only the first row.
+    /// Amplitudes of harmonics 1, 3 and 5 along one side of the board, for each harmonic along the other side, within ±1. Lines use only the first
+    /// row.
     left: [[f32; 3]; 3],
     kind: GratingKind,
     wave_number: f32,
@@ -41,7 +42,7 @@ pub(super) struct Relief {
 
 /// Height of a board's relief above its middle, mm (literature).
 const AMPLITUDE_MM: f64 = 0.2;
-/// Half the side of a board, mm (geometry).
+/// Half the side of a board, mm (from the board's geometry).
 const HALF_SIDE_MM: f32 = 5.0;
 /// Width of the fading edge of a board, mm.
 const EDGE_MM: f32 = 0.15;

@@ -31,7 +31,7 @@ pub struct CameraSpec {
     pub shot_gain_dn: f64,
     /// Standard deviation of the read noise.
     pub read_noise_dn: f64,
-    /// Relative standard deviation of a frame's brightness.
+    /// Standard deviation of the brightness between frames, relative to the brightness.
     pub flicker: f64,
 }
 
@@ -80,7 +80,7 @@ pub enum GelSpec {
 }
 
 impl GelSpec {
-    /// True if the model covers ambient light in this gel.
+    /// True if the bench models ambient light in this gel.
     pub(super) fn has_outside_light(&self) -> bool {
         !matches!(self, GelSpec::Gelsight(_))
     }

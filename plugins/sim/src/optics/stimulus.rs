@@ -23,7 +23,7 @@ pub struct Board {
     pub grating: Grating,
     /// Pose on the gel.
     pub pose: GratingPose,
-    /// Pressure over its whole area.
+    /// Pressure over the whole area of the board.
     pub pressure_mpa: f64,
     /// Depth of the board below the surface of the gel at rest, mm; for a dome, below its apex. A deeper board is nearer to the camera.
     pub depth_mm: f64,

@@ -22,7 +22,7 @@ const SIDE_BITS: i32 = 7;
 const ROUND: f32 = 12_582_912.0;
 
 impl Texture {
-    /// Creates a texture of `layers`, with `pitch` of the field's unit between texels.
+    /// Creates a texture of `layers`. `pitch` is the distance between texels, in the unit of the field of view.
     pub(super) fn new(pitch: f64, layers: &[Vec<f32>]) -> Texture {
         let texel = |row: usize, column: usize| {
             let index = row % SIDE * SIDE + column % SIDE;
@@ -42,7 +42,7 @@ impl Texture {
         }
     }
 
-    /// Four values at a place, in the field's unit.
+    /// Four values at the place `x`, `y`, which has the unit of the field of view.
     #[inline(always)]
     pub(super) fn at(&self, x: f32, y: f32) -> [f32; 4] {
         let places = Places::of(Lanes::splat(x), Lanes::splat(y), self.texels_per_unit);
@@ -138,7 +138,7 @@ pub(super) fn smooth_noise(stream: &Stream, layer: u64, sigma: f64) -> Vec<f32> 
         .collect()
 }
 
-/// Gaussian window, from its centre outwards.
+/// Weights of a Gaussian with a standard deviation of `sigma` texels, from its centre outwards.
 fn window(sigma: f64) -> Vec<f64> {
     (0..SIDE / 2)
         .map(count)

@@ -45,7 +45,7 @@ struct Scene {
     lens: Lens,
     dimple: Dimple,
     disc: Disc,
-    /// Skin under its own lamps, without markers.
+    /// Light of the skin under the dome's own lamps, without markers.
     skin: Vec<f32>,
     /// Places of the markers on the untouched dome, in mm from its centre; the next field has their places in the picture.
     markers: Vec<[f64; 3]>,
@@ -80,7 +80,7 @@ struct Ball {
 
 /// Reach of the bell, in widths. Its height there is four millionths.
 const WIDTHS: f32 = 5.0;
-/// Scale of the edges of markers and dome: a quarter of a pixel at 96 pixels.
+/// Scale of the edges of markers and dome, in radii of the rim: a quarter of a pixel of a frame 96 pixels wide.
 const EDGE: f64 = 0.25 / 46.0;
 /// Texel of the skin's unevenness. The correlation length is three texels.
 const TEXEL: f64 = 1.0 / 46.0;

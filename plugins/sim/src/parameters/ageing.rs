@@ -7,7 +7,7 @@ use super::{Body, ParameterError, Parameters};
 const USUAL: &str = include_str!("../../parameters/ageing.toml");
 
 impl Parameters {
-    /// The table `text` of a gel that ages. A table without a section `ageing` gets the default rates of the simulation.
+    /// Returns the table `text` for a gel that ages. A table without a section `ageing` gets the default rates of the simulation.
     ///
     /// # Errors
     /// As [`Parameters::parse`].

@@ -65,7 +65,7 @@ impl ParameterError {
         ParameterError { line, kind }
     }
 
-    /// Line of the table, from 1. The last line for missing parts.
+    /// Line of the fault in the table, counted from 1; the last line for missing parts.
     pub fn line(&self) -> usize {
         self.line
     }

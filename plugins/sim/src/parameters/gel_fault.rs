@@ -1,4 +1,4 @@
-//! Faults of a gel by physics: tables whose values changed together, so that force and picture change together.
+//! Physical faults of a gel. Each fault changes several values of a parameter table, so that force and picture change together.
 
 use super::{ParameterError, Parameters};
 
@@ -94,7 +94,7 @@ impl GelFault {
         }
     }
 
-    /// Cause and appearance, in one line.
+    /// Cause and appearance of the fault, in one line.
     pub const fn title(self) -> &'static str {
         match self {
             GelFault::Softening => "a softer gel",
@@ -110,7 +110,7 @@ impl GelFault {
         }
     }
 
-    /// Meaning and unit of the parameter.
+    /// Meaning and unit of the parameter of the fault.
     pub const fn parameter(self) -> &'static str {
         match self {
             GelFault::Softening => "share of the stiffness that is lost",
@@ -131,7 +131,7 @@ impl GelFault {
         GelFault::ALL.into_iter().find(|fault| fault.name() == name)
     }
 
-    /// Parameter of severities 1 to 5: a share, a value in K or mm, or a count; for a tear, a share of the width.
+    /// Parameter of the fault at severities 1 to 5: a share, a value in K or mm, or a count; for a tear, a share of the width.
     pub const fn amounts(self) -> [f64; 5] {
         match self {
             GelFault::Softening | GelFault::Hardening => [0.02, 0.05, 0.10, 0.20, 0.40],
@@ -146,12 +146,12 @@ impl GelFault {
         }
     }
 
-    /// Parameter of `severity`, from 1 to 5.
+    /// Parameter of the fault at `severity`, from 1 to 5.
     pub fn amount(self, severity: u8) -> f64 {
         self.amounts()[usize::from(severity.clamp(1, 5)) - 1]
     }
 
-    /// Values that change by a factor.
+    /// Values that the fault multiplies, with their factors.
     fn changes(self, amount: f64) -> Vec<Change> {
         let scaled = |factor: f64, note| {
             let values = STIFFNESS.into_iter();
@@ -217,7 +217,7 @@ impl GelFault {
 }
 
 impl Parameters {
-    /// The table `text` with `fault` at `severity`, from 1 to 5. Each changed value has the origin `free` and a note with the assumption.
+    /// Returns the table `text` with `fault` at `severity`, from 1 to 5. Each changed value has the origin `free` and a note with the assumption.
     ///
     /// # Errors
     /// As [`Parameters::parse`]. The changed table may be refused too: a thinner gel may no longer allow the greatest depth.
@@ -256,7 +256,7 @@ impl Parameters {
     }
 }
 
-/// A value of a table.
+/// Creates a table value with its unit, the origin `free` and a note.
 fn number(value: f64, unit: &str, note: &str) -> toml::Value {
     let entries = [
         ("value", toml::Value::from(value)),

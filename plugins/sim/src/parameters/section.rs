@@ -24,7 +24,7 @@ impl Origin {
         Origin::Free,
     ];
 
-    /// Name in tables.
+    /// Name of the origin in parameter tables.
     pub const fn name(self) -> &'static str {
         match self {
             Origin::Geometric => "geometric",
@@ -59,7 +59,7 @@ pub struct Entry {
     pub unit: &'static str,
     /// Origin of the value.
     pub origin: Origin,
-    /// Line of the table, from 1.
+    /// Line of the value in the table, counted from 1.
     pub line: usize,
 }
 

@@ -31,7 +31,7 @@ section! {
         radius_mm: "mm", 5.0 ..= 200.0;
         /// Linear stiffness of the skin, which buckles under the load.
         skin_n_per_mm: "N/mm", 0.0 ..= 100.0;
-        /// Coefficient of depth^(3/2) of the gel under the skin, for a ball of 2 mm.
+        /// Coefficient of depth^(3/2) in the force of the gel under the skin, for a ball of 2 mm radius.
         gel_n_per_mm_3_2: "N/mm^1.5", 0.0001 ..= 100.0;
         /// Thickness of the skin.
         skin_thickness_mm: "mm", 0.05 ..= 10.0;
@@ -67,9 +67,9 @@ section! {
         relaxing_fraction: "1", 0.0 ..= 0.95;
         /// Time constant of the relaxation.
         relaxation_time_s: "s", 0.001 ..= 100000.0;
-        /// Fraction of the force that a gel loses below a depth of earlier presses.
+        /// Greatest fraction of the force that earlier presses take from a gel, down to their depth.
         conditioning_fraction: "1", 0.0 ..= 0.5;
-        /// Number of presses after which the loss still lacks 1/e of its limit.
+        /// Number of presses after which the loss has reached 1 − 1/e of its limit.
         conditioning_presses: "1", 0.1 ..= 1000.0;
     }
 }
@@ -93,7 +93,7 @@ section! {
 }
 
 section! {
-    /// Variation between units and places.
+    /// Variation of stiffness, modulus, sag and surface between units and places.
     Variation, "variation", {
         /// Relative standard deviation of the stiffness between places.
         stiffness: "1", 0.0 ..= 0.5;
@@ -101,7 +101,7 @@ section! {
         modulus: "1", 0.0 ..= 0.5;
         /// Relative standard deviation of the sag between units. Unit 0 is nominal.
         sag: "1", 0.0 ..= 0.5;
-        /// Root mean square of the waves on the surface of a unit.
+        /// Root-mean-square height of the waves on the surface of a unit.
         gap_mm: "mm", 0.0 ..= 1.0;
         /// Height of the largest blister a unit may have.
         blister_mm: "mm", 0.0 ..= 5.0;
@@ -121,7 +121,7 @@ section! {
         channels: "1", 1.0 ..= 3.0;
         /// 1 if ambient light reaches the camera, 0 if the gel is opaque.
         transparency: "1", 0.0 ..= 1.0;
-        /// Mean of an untouched picture in the dark, DN of an 8-bit camera.
+        /// Mean gray over the pixels of an untouched picture in the dark, DN of an 8-bit camera.
         mean_gray: "DN", 0.0 ..= 255.0;
         /// Variance of the shot noise per DN of brightness, in a picture 96 pixels wide.
         shot_gain: "DN", 0.0 ..= 10.0;
@@ -135,7 +135,7 @@ section! {
 section! {
     /// Markers in or on the gel.
     Markers, "markers", {
-        /// Distance between neighbours.
+        /// Distance between neighbouring markers.
         pitch_mm: "mm", 0.1 ..= 50.0;
         /// Diameter of a marker.
         diameter_mm: "mm", 0.05 ..= 20.0;
@@ -151,11 +151,11 @@ section! {
 section! {
     /// Layers of a printed lattice.
     Lattice, "lattice", {
-        /// Depth of the first layer.
+        /// Depth of the first layer below the surface.
         first_depth_mm: "mm", 0.05 ..= 50.0;
-        /// Depth of the second layer.
+        /// Depth of the second layer below the surface.
         second_depth_mm: "mm", 0.05 ..= 50.0;
-        /// Depth of the third layer.
+        /// Depth of the third layer below the surface.
         third_depth_mm: "mm", 0.05 ..= 50.0;
         /// Pitch of the lattice.
         pitch_mm: "mm", 0.1 ..= 50.0;
@@ -185,7 +185,7 @@ section! {
     Ageing, "ageing", {
         /// Rate at which the gel loses stiffness, per kilonewton of the sum of the forces of all presses. Negative if the gel hardens.
         softening_per_kn: "1/kN", -10.0 ..= 100.0;
-        /// Rate at which the surface loses friction and gains gloss.
+        /// Rate at which the surface loses friction and gains gloss, per kilonewton of the sum of the forces of all presses.
         polishing_per_kn: "1/kN", 0.0 ..= 100.0;
     }
 }
@@ -219,7 +219,7 @@ section! {
 section! {
     /// Robot that moves the indenter.
     Robot, "robot", {
-        /// Standard deviation of the position along each axis.
+        /// Standard deviation of the position error along each axis.
         positioning_mm: "mm", 0.0 ..= 1.0;
         /// Speed of approach and indentation.
         speed_mm_per_s: "mm/s", 0.001 ..= 1000.0;
@@ -229,7 +229,7 @@ section! {
 section! {
     /// Search for first contact.
     Search, "search", {
-        /// Step between two readings.
+        /// Distance that the indenter moves between two readings.
         step_mm: "mm", 0.001 ..= 5.0;
         /// Force that counts as contact.
         threshold_n: "N", 0.0001 ..= 10.0;

@@ -18,7 +18,8 @@ pub struct Touch {
 /// Maximum number of steps of a search.
 const STEPS_MAX: u32 = 200;
 
-/// Searches from a random phase above the surface. `force_n` gives the true force at a depth, and `error_n` the error of the transducer at a step.
+/// Searches for contact from a random start up to one step above the surface. `force_n` gives the true force at a depth, and `error_n` the error of
+/// the transducer at a step.
 pub(crate) fn search(
     search: &Search,
     phase: Stream,

@@ -1,4 +1,4 @@
-//! Faults of a gel by physics: force and picture change together.
+//! Physical faults of a gel: force and picture change together.
 
 use taceva_core::{Factory, Rig};
 use taceva_sim::contact::{Indentation, Solid};

@@ -127,7 +127,7 @@ fn check(trial: &Trial, planned: &PlannedPress, log: &Log) {
     check_forces(trial, planned, record);
 }
 
-/// Number of samples that a limit kept from their waypoint.
+/// Number of samples at which a limit stopped the robot before its waypoint.
 fn limited(record: &PressRecord) -> usize {
     let samples = record.samples.iter();
     samples.filter(|sample| sample.limited_by.is_some()).count()

@@ -77,7 +77,7 @@ fn build_c(folder: &Path, kind: Kind) -> Option<PathBuf> {
     Some(root)
 }
 
-/// Plugin in `folder`, trusted to run in this process.
+/// Host of the plugin in `folder`, which is trusted to run in this process.
 fn trusted(folder: &Path) -> Arc<PluginHost> {
     let plugins = Plugins::search(SearchPath::empty().given([folder.to_owned()]), &[]);
     assert_eq!(plugins.len(), 1, "{:?}", plugins.rejections);

@@ -1,4 +1,4 @@
-//! Projects of the template: built, tested for every promise, and written by the published crate.
+//! Projects of the template: built, tested against the contract of their kind, and written by the published crate.
 
 mod builds;
 mod package;

@@ -8,7 +8,7 @@ use std::process::Command;
 
 use taceva_template::{Kind, Sources, c_project, headers, project};
 
-/// Writes every file of the crate, with its path and its length.
+/// Program that writes every file of the crate, with its path and its length.
 const PRINTER: &str = r#"
 use taceva_template::{Kind, Sources, c_project, headers, project};
 

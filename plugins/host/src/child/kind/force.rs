@@ -19,7 +19,7 @@ struct ForceProxy {
     tare: bool,
     /// Sequence number of the last reading; `None` before the first, or if the device does not number readings.
     sequence: Option<u64>,
-    /// Number of lost readings, as stated after the last reading; `None` if not counted.
+    /// Number of lost readings, as stated after the last reading; `None` if the device does not count them.
     lost: Option<u64>,
 }
 

@@ -122,7 +122,7 @@ impl Robot for RobotProxy {
     }
 }
 
-/// The child renews the motion. The motion therefore stops if the child ends.
+/// The child process renews the motion, so the motion stops if the child ends.
 impl ExpiringMotion for RobotProxy {
     fn move_expiring(
         &mut self,

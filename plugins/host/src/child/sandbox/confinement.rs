@@ -17,7 +17,7 @@ pub struct Confinement {
     pub files: u64,
     /// Outside resources that the manifest declares and the user allows.
     pub needs: Vec<Need>,
-    /// Further readable files and folders: the environment of an interpreter.
+    /// Further files and folders that the child may read, such as the environment of an interpreter.
     pub readable: Vec<PathBuf>,
     /// True if the child can map no further code after its plugin is loaded.
     pub seals: bool,

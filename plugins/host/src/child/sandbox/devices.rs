@@ -78,7 +78,7 @@ pub(crate) fn no_port(needs: &[Need]) -> Option<String> {
     })
 }
 
-/// True for a serial port or a pseudo-terminal. The port is not opened, which would reset some boards.
+/// True for a serial port or a pseudo-terminal. Does not open the port, because opening resets some boards.
 fn is_serial(metadata: &Metadata) -> bool {
     let (major, minor) = numbers(metadata);
     let class = format!("/sys/dev/char/{major}:{minor}/subsystem");

@@ -34,7 +34,7 @@ pub(crate) fn confine(confinement: &Confinement, parent: u32) -> Result<Isolatio
     }
 }
 
-/// Gives up the right to map code on every thread of the process. Only loading needs this right.
+/// Gives up the right to map code, which only loading needs, on every thread of the process.
 ///
 /// # Errors
 /// As [`confine`].

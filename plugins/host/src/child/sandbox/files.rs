@@ -13,7 +13,7 @@ use super::{Confinement, Need, devices};
 /// Newest supported Landlock version. An older kernel enforces the rights that it supports.
 const NEWEST: ABI = ABI::V7;
 
-/// Files of the loader and the C library; no user files.
+/// Files of the loader and the C library, which every child may read; no user files.
 const READABLE: [&str; 12] = [
     "/lib",
     "/lib64",

@@ -10,7 +10,7 @@ use rustix::thread::{set_no_new_privs, set_thread_groups, set_thread_res_gid, se
 
 use super::{Confinement, Need, devices};
 
-/// Number of the conventional user and group without own files.
+/// Id of the user and of the group `nobody`, which own no files.
 pub(crate) const NOBODY: u32 = 65_534;
 
 /// Sets the resource limits of the process. The process cannot raise these limits again.

@@ -195,12 +195,12 @@ fn rule(conditions: &[SeccompCondition]) -> Result<SeccompRule, BackendError> {
     SeccompRule::new(conditions.to_vec())
 }
 
-/// Condition that the low 32 bits of the argument equal `value`. The kernel reads only these bits.
+/// Condition that the low 32 bits of system-call argument number `argument` equal `value`. The kernel reads only these bits.
 fn equal(argument: u8, value: u64) -> Result<SeccompCondition, BackendError> {
     SeccompCondition::new(argument, SeccompCmpArgLen::Dword, SeccompCmpOp::Eq, value)
 }
 
-/// Condition that the argument's bits under `mask` equal `value`.
+/// Condition that the bits under `mask` of system-call argument number `argument` equal `value`.
 fn masked(argument: u8, mask: i32, value: i32) -> Result<SeccompCondition, BackendError> {
     let (mask, value) = (
         u64::from(mask.unsigned_abs()),

@@ -254,11 +254,12 @@ mod tests {
 
     /// Facts that are encoded field by field.
     pub(super) trait Growing: Default + std::fmt::Debug {
-        /// Encoded fields, in order.
+        /// Names of the encoded fields, in order.
         const FIELDS: &'static [&'static str];
     }
 
-    /// Fields of the struct, in declaration order. The names are from the output of `Debug`, which has one field per line, indented by four spaces.
+    /// Names of the fields of the struct, in declaration order, from the output of `Debug`. That output has one field per line, indented by four
+    /// spaces.
     fn declared<T: Growing>() -> Vec<String> {
         let shown = format!("{:#?}", T::default());
         let fields = shown.lines().filter_map(|line| {

@@ -13,13 +13,13 @@ use crate::wire_version::WIRE;
 /// First message, with the limits that the child must impose on itself before it loads anything. The message also transfers the files to serve.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Hello {
-    /// The host's [`WIRE`]. This is the first field, so a child of any version can read it.
+    /// Wire version of the host, [`WIRE`]. This is the first field, so a child of any version can read it.
     pub(crate) wire: u32,
     /// Process number of the host. A child with another parent process concludes that the host is gone.
     pub(crate) parent: u32,
     /// Limits that the child imposes on itself.
     pub(crate) confinement: Confinement,
-    /// True if the last file is the socket for the plugin's log lines.
+    /// True if the last file of this message is the socket for the plugin's log lines.
     pub(crate) is_heard: bool,
     /// True if the child loads a plugin. Otherwise the child only reports its isolation.
     pub(crate) loads: bool,

@@ -52,7 +52,7 @@ messages! {
     /// A call to a model.
     #[derive(Clone, Debug, PartialEq)]
     enum ModelCall: "a call to a model" {
-        /// Predicts. The shared memory contains the features, and after the call the predictions.
+        /// Predicts. Reads the features from the shared memory and overwrites them with the predictions.
         0 => Predict { samples: u64 },
         /// Saves the model in the child and returns the length, bytes.
         1 => Save {},

@@ -1,4 +1,4 @@
-//! Encoding of core's values. The bits of numbers are encoded, so that the transfer changes no value.
+//! Encoding of the values of `taceva_core`. Numbers are encoded by their bits, so that the transfer changes no value.
 
 use taceva_core::{
     ArgValue, Axes, Axis, Deadline, Degree, DriverKind, ErrorKind, Fault, FrameInfo, GratingKind,
@@ -166,7 +166,7 @@ impl Wire for ArgValue {
     }
 }
 
-/// Implements [`Wire`] for fieldless values by list index. An unlisted value gets the index after the last value.
+/// Implements [`Wire`] for a type whose values are in `$list`: the encoding is the index. A value outside the list gets the index after the last one.
 macro_rules! listed {
     ($($type:ty, $list:expr, $expected:literal;)*) => {$(
         impl Wire for $type {

@@ -89,7 +89,7 @@ fn address_covers(pattern: &str, address: &str) -> bool {
     (!is_numeric(&pattern) || is_numeric(&address)) && each_part(&pattern, &address, '.', matches)
 }
 
-/// True if `name`, a single part, matches `pattern`. A `*` stands for any characters.
+/// True if `name`, one part of a path or of an address, matches `pattern`. A `*` stands for any characters.
 pub(crate) fn matches(pattern: &str, name: &str) -> bool {
     let (pattern, name) = (pattern.as_bytes(), name.as_bytes());
     // Position of the last star, and start of its match. A mismatch extends that match by one character.

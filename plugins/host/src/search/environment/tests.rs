@@ -72,7 +72,7 @@ fn found(interpreter: &Path) -> Plugins {
     Plugins::search_with(SearchPath::empty(), &[], &[interpreter.to_owned()])
 }
 
-/// The only rejection reason.
+/// Reason of the only rejection when the environment of `interpreter` is searched.
 fn refused(interpreter: &Path) -> String {
     let found = found(interpreter);
     assert!(found.is_empty(), "{found:?}");

@@ -100,12 +100,12 @@ pub(super) fn describe(
 const LOAD_KN: f64 = 1000.0;
 /// Maximum unit number.
 const UNITS: i64 = 1_000_000;
-/// Maximum reduction.
+/// Maximum reduction factor of the frame size.
 const REDUCTIONS: i64 = 64;
 /// Approximate default length of the longer side of a frame, pixels.
 const LONGER_SIDE: u32 = 160;
 
-/// Reduction of the frame size that `args` request.
+/// Reduction factor of the frame size that `args` request.
 pub(super) fn reduction(args: &Args, parameters: &Parameters) -> u32 {
     match args.get("reduction") {
         Some(&ArgValue::Whole(reduction)) => u32::try_from(reduction).unwrap_or(1),
@@ -113,7 +113,7 @@ pub(super) fn reduction(args: &Args, parameters: &Parameters) -> u32 {
     }
 }
 
-/// Default reduction.
+/// Default reduction factor of the frame size.
 pub(super) fn default_reduction(parameters: &Parameters) -> u32 {
     let [width, height] = OpticsSpec::new(parameters).native;
     (width.max(height) / LONGER_SIDE).clamp(1, 64)

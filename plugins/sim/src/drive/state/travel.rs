@@ -16,7 +16,7 @@ pub(in crate::drive) enum Ended {
     OutOfTime,
     /// The robot was halted.
     Halted,
-    /// The force reached the guard.
+    /// The force reached the limit of the motion.
     Guarded,
 }
 

@@ -5,7 +5,8 @@ use crate::displacement::{Load, NODES, Profile, Quantity, node};
 use crate::number::narrow;
 use crate::optics::simd::Lanes;
 
-/// Slopes around one contact at each node of the radial tables: slope of the sink over r, bulge over r, slope of the bulge over r, and shadow over r.
+/// Effect of one contact at each node of the radial tables: [`Quantity::SinkSlope`], [`Quantity::Bulge`], [`Quantity::BulgeSlope`], and the shadow
+/// divided by the radius.
 #[derive(Clone, Debug)]
 pub(super) struct Dent {
     nodes: Box<[[f32; 4]; NODES]>,
@@ -95,7 +96,7 @@ impl Dent {
     }
 }
 
-/// Slope of the sink over r at `distance`, blurred by a Gaussian of `sigma`.
+/// Slope of the sink divided by the radius r, at `distance`, blurred by a Gaussian with the standard deviation `sigma`.
 ///
 /// The slope is a vector field r t(r²). Blurring it in the plane is blurring t as a field in four dimensions. Three of the dimensions lie across r
 /// and add their variance to r². Along r, seven Gauss-Hermite nodes are used.
@@ -120,7 +121,7 @@ fn shade(rho: f64) -> f64 {
     libm::exp(-from_middle * from_middle)
 }
 
-/// Nodes and weights of the standard normal distribution.
+/// Nodes and weights of Gauss-Hermite quadrature for the standard normal distribution.
 const HERMITE: [(f64, f32); 7] = [
     (-3.750_439_717_725_742, 0.000_548_268_86),
     (-2.366_759_410_734_541, 0.030_757_124),

@@ -8,7 +8,7 @@ use crate::random::Stream;
 pub struct LampSpec {
     /// Centre of the bar: x, y, and its height over the gel, on the side of the camera.
     pub middle_mm: [f64; 3],
-    /// Half of its length along x and y.
+    /// Half the length of the bar along x and y.
     pub half_length_mm: [f64; 2],
     /// Red, green and blue light of the bar on a gel that faces the bar at the reach of the lamps, DN.
     pub colour_dn: [f64; 3],
@@ -29,10 +29,10 @@ pub(super) const CHUNK: usize = 32;
 /// Slopes of the coating under a run of pixels of one row, as the camera sees it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slopes {
-    /// Slope towards the camera along x and y.
+    /// Slope towards the camera along x; the next field is the slope along y.
     pub(super) x: [f32; CHUNK],
     pub(super) y: [f32; CHUNK],
-    /// Depth in the shadow of the contact, per mm of distance from its centre; 0 outside.
+    /// Darkness of the shadow of the contact, divided by the distance from the centre of the contact, 1/mm; 0 outside the shadow.
     pub(super) shadow: [f32; CHUNK],
     /// Component of the unit normal of the surface along the sensor's axis.
     pub(super) upright: [f32; CHUNK],
@@ -70,7 +70,7 @@ impl Lamp {
         }
     }
 
-    /// Gain of lamp `number` of a unit: 1 with a standard deviation of `spread`.
+    /// Gain of lamp `number` of a unit: random with mean 1 and standard deviation `spread`.
     pub(super) fn gain(stream: &Stream, number: u64, spread: f64) -> f64 {
         1.0 + spread * stream.normal(number)
     }

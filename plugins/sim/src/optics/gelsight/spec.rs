@@ -10,27 +10,27 @@ use crate::parameters::{GelWear, Layer, Markers, Parameters};
 pub struct GelsightSpec {
     /// Thickness of the gel (literature).
     pub thickness_mm: f64,
-    /// Sag of the surface at x = 7 mm and at y = 9 mm (geometry).
+    /// Sag of the surface at x = 7 mm and at y = 9 mm (from the sensor's geometry).
     pub sag_mm: [f64; 2],
-    /// Lamps: red on the left, green on the right, blue at the bottom, and weak cyan at the top (free).
+    /// Lamps: red on the left, green on the right, blue at the bottom, and weak cyan at the top (free parameter).
     pub lamps: Vec<LampSpec>,
-    /// Distance at which the colours of the lamps are stated (free).
+    /// Distance at which the colours of the lamps are stated (free parameter).
     pub lamp_reach_mm: f64,
-    /// Ambient light: red, green, blue (free).
+    /// Ambient light: red, green, blue (free parameter).
     pub ambient_dn: [f64; 3],
-    /// Standard deviation of the lamps' gains between units (free).
+    /// Standard deviation of the lamps' gains between units (free parameter).
     pub lamp_gain_spread: f64,
-    /// Standard deviation of the coating's reflectance (free).
+    /// Standard deviation of the coating's reflectance (free parameter).
     pub coating_spread: f64,
-    /// Part of a lamp's light that the rim of a contact blocks behind it (free).
+    /// Share of a lamp's light that the rim of a contact blocks (free parameter).
     pub shadow: f64,
-    /// Standard deviation of the lens's blur, on the gel (fit: gratings).
+    /// Standard deviation of the lens's blur, on the gel (fitted to gratings).
     pub blur_mm: f64,
     /// Markers, if there are any.
     pub markers: Option<MarkerGrid>,
-    /// Width and height of the field.
+    /// Width and height of the field of view.
     pub field_mm: [f64; 2],
-    /// Wear of the gel, if any. A glossier coating reflects more light of the lamps and less diffuse light (free).
+    /// Wear of the gel, if any. A glossier coating reflects more light of the lamps and less diffuse light (free parameter).
     pub wear: Option<GelWear>,
 }
 
@@ -41,11 +41,11 @@ pub struct MarkerGrid {
     pub count: [u16; 2],
     /// Distance between centres (literature).
     pub pitch_mm: f64,
-    /// Diameter (literature).
+    /// Diameter of a marker (literature).
     pub diameter_mm: f64,
-    /// Part of the light that a marker absorbs (free).
+    /// Part of the light that a marker absorbs (free parameter).
     pub darkness: f64,
-    /// Standard deviation of the marker places between units (free).
+    /// Standard deviation of the marker places between units (free parameter).
     pub jitter_mm: f64,
 }
 
@@ -106,7 +106,7 @@ impl MarkerGrid {
     }
 }
 
-/// Mean gray of the untouched gel without markers, under the lamps and ambient light of [`GelsightSpec::new`] at brightness 1 (fit).
+/// Mean gray, DN, of the untouched gel without markers, under the lamps and ambient light of [`GelsightSpec::new`] at brightness 1 (fitted).
 const NOMINAL_GRAY: f64 = 144.8;
 
 fn whole(count: f64) -> u16 {

@@ -49,12 +49,13 @@ pub(super) struct Outside {
 }
 
 impl Outside {
-    /// Effect of `scene`.
+    /// Creates the effect of `scene` on the pictures of the camera.
     pub(super) fn new(scene: AmbientLight) -> Outside {
         Outside { scene }
     }
 
-    /// Factor of the camera's automatic exposure (fit: mean gray 107, 107, 105, 118 under S1 to S4, from 107).
+    /// Factor of the camera's automatic exposure, fitted to mean grays of 107, 107, 105 and 118 DN under scenes S1 to S4. Without a scene, the mean
+    /// gray is 107 DN.
     pub(super) fn exposure(&self) -> f64 {
         match self.scene {
             AmbientLight::Normal | AmbientLight::Spot => 1.0,
@@ -64,7 +65,7 @@ impl Outside {
         }
     }
 
-    /// Additional light at `x`, `y`: red, green, blue, in DN (free; strength fit).
+    /// Additional light at `x`, `y`: red, green, blue, in DN. Its shape is a free parameter, its strength is fitted.
     pub(super) fn at(&self, x: f64, y: f64) -> [f64; 3] {
         match self.scene {
             AmbientLight::Normal => [0.0; 3],

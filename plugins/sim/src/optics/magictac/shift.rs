@@ -16,8 +16,9 @@ pub(super) struct Shift {
     pub(super) reach: f32,
 }
 
-/// Four rows of lanes: outward over r, along the shear, towards the shear's axis over r², and wetting. Each row has one lane per layer. The fourth
-/// lane of the first row is the slope of the surface over r, so the gradient of the surface is computed together with the shifts.
+/// Four rows of lanes: outward shift over r, shift along the shear, shift towards the shear's axis over r², and wetting, for the radius r. Each row
+/// has one lane per layer. The fourth lane of the first row is the slope of the surface over r. The gradient of the surface is therefore computed
+/// together with the shifts.
 type Node = [[f32; 4]; 4];
 
 /// Effect at a place: the shift of each layer, and in the fourth lane the gradient of the surface's depth.
@@ -31,10 +32,10 @@ pub(super) struct Moved {
 
 /// Minimum visible shift, mm: a fiftieth of a pixel of the smallest useful frame (0.2 mm).
 const LEAST_MM: f64 = 0.004;
-/// Outer part of the reach over which the effect fades.
+/// Fraction of the reach, at its outer end, over which the effect fades.
 const FADE: f64 = 0.2;
 
-/// Fraction of full wetting at `beyond` mm outside the rim.
+/// Fraction of the full brightening by contact, at `beyond` mm outside the rim.
 fn wet(beyond: f64) -> f64 {
     if beyond > 8.0 {
         return 0.0;
@@ -100,7 +101,7 @@ impl Shift {
         }
     }
 
-    /// Effect at `x`, `y`.
+    /// Effect of the ball at `x`, `y`.
     #[inline(always)]
     pub(super) fn at(&self, x: f32, y: f32) -> Moved {
         let [dx, dy] = [x - self.x, y - self.y];

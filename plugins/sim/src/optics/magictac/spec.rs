@@ -6,31 +6,31 @@ use crate::parameters::{GelWear, Lattice, Layer, Parameters};
 /// A clear block with a printed lattice in three layers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MagictacSpec {
-    /// Thickness of the block (geometry).
+    /// Thickness of the block (from the sensor's geometry).
     pub thickness_mm: f64,
-    /// Depths of the lattice's layers below the surface (geometry).
+    /// Depths of the lattice's layers below the surface (from the sensor's geometry).
     pub layers_mm: [f64; 3],
-    /// Distance between the lattice's lines (free).
+    /// Distance between the lattice's lines (free parameter).
     pub pitch_mm: f64,
-    /// Contrast of the lines and of the speckle between them (free).
+    /// Contrast of the lines and of the speckle between them (free parameter).
     pub contrast: [f64; 2],
-    /// Shift of the view below the surface by refraction, per unit of surface slope (free).
+    /// Shift of the view below the surface by refraction, per unit of surface slope (free parameter).
     pub refraction_mm: f64,
-    /// Brightening by the slope of the surface (free).
+    /// Brightening by the slope of the surface (free parameter).
     pub gloss: f64,
-    /// Brightening under the ball (free).
+    /// Brightening under the ball (free parameter).
     pub wetting: f64,
-    /// Buckling of the lattice: a fraction of the local displacement, random for each press (free).
+    /// Buckling of the lattice: a fraction of the local displacement, random for each press (free parameter).
     pub buckling: f64,
-    /// Strength of the coloured glow and of the uniform light (fit: mean gray 107).
+    /// Strength of the coloured glow and of the uniform light (fitted to a mean gray of 107 DN).
     pub glow_dn: [f64; 2],
-    /// Contrast of a grating in the first layer (fit).
+    /// Contrast of a grating in the first layer (fitted).
     pub grating_contrast: f64,
-    /// Standard deviation of the lens's blur, on the gel (fit: gratings).
+    /// Standard deviation of the lens's blur, on the gel (fitted to gratings).
     pub blur_mm: f64,
-    /// Standard deviation of the lamps' gains between units (free).
+    /// Standard deviation of the lamps' gains between units (free parameter).
     pub lamp_gain_spread: f64,
-    /// Width and height of the field.
+    /// Width and height of the field of view.
     pub field_mm: [f64; 2],
     /// Wear of the block, if any.
     pub wear: Option<GelWear>,
@@ -67,5 +67,5 @@ impl MagictacSpec {
     }
 }
 
-/// Mean gray of the untouched block if `glow_dn` is 130 and 55 (fit).
+/// Mean gray, DN, of the untouched block if `glow_dn` is 130 and 55 (fitted).
 const NOMINAL_GRAY: f64 = 114.8;

@@ -10,7 +10,7 @@
 #[cfg(target_arch = "x86_64")]
 use std::arch::x86_64 as isa;
 
-/// Four numbers.
+/// Four binary32 numbers in one vector register.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::optics) struct Lanes(Vector);
 
@@ -57,7 +57,7 @@ impl Lanes {
         Lanes(unsafe { isa::_mm_sqrt_ps(self.0) })
     }
 
-    /// Low `BITS` bits of each lane, below the bits of `high`.
+    /// Joins the low `BITS` bits of each lane with the bits of `high`, which become the higher bits.
     #[inline(always)]
     pub(in crate::optics) fn joined_with<const BITS: i32>(self, high: Lanes) -> [u32; 4] {
         // SAFETY: every x86-64 has SSE2.
@@ -109,7 +109,7 @@ impl Lanes {
         Lanes(self.0.map(f32::sqrt))
     }
 
-    /// Low `BITS` bits of each lane, below the bits of `high`.
+    /// Joins the low `BITS` bits of each lane with the bits of `high`, which become the higher bits.
     #[inline(always)]
     pub(in crate::optics) fn joined_with<const BITS: i32>(self, high: Lanes) -> [u32; 4] {
         let low_bits = |number: f32| number.to_bits() & ((1 << BITS) - 1);

@@ -39,11 +39,11 @@ impl Dimple {
 
 /// Displaced position of the marker at `marker`, in mm from the centre of the dome.
 ///
-/// With s the distance from the contact along the surface, w the inward displacement there, d the indentation, l the decay length of the skin, a the
-/// contact radius and n the normal,
+/// Let s be the distance from the contact along the surface, w the inward displacement there and d the indentation. With the decay length l of the
+/// skin, the contact radius a and the normal n:
 ///
 /// * w = d [f (−(4/π) kei(s/l)) + (1 − f) h(s/a)], f the share of the skin and h Hertz's profile, along −n;
-/// * the skin follows the drag t by min(1, 1 / (0.35 + s / 1.6 a)) e^(−s / 18 mm) (free);
+/// * the skin follows the drag t by min(1, 1 / (0.35 + s / 1.6 a)) e^(−s / 18 mm) (free parameter);
 /// * the whole dome leans with the lateral force, in proportion to the height.
 pub(super) fn displaced(
     marker: [f64; 3],

@@ -2,7 +2,7 @@
 
 use super::spec::VitactipSpec;
 
-/// An equidistant lens. A point at the angle α from the axis appears α/α_rim radii of the rim from the centre.
+/// An equidistant lens. A point at the angle α from the axis appears α/α_rim radii of the rim from the centre. The rim has the angle α_rim.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lens {
     /// Distance between the camera and the dome's centre.
@@ -22,7 +22,7 @@ impl Lens {
         }
     }
 
-    /// Image of `point`, a place in mm from the dome's centre, in radii of the rim.
+    /// Image of `point`, in radii of the rim. The point is in mm from the dome's centre.
     pub(super) fn project(&self, point: [f64; 3]) -> [f64; 2] {
         let [x, y, z] = point;
         let from_axis = (x * x + y * y).sqrt();
@@ -35,7 +35,7 @@ impl Lens {
         [x * scale, y * scale]
     }
 
-    /// Point that has the image `seen`, on a plane perpendicular to the axis, `depth_mm` nearer than the apex.
+    /// Point that has the image `seen`, on a plane perpendicular to the axis, `depth_mm` nearer to the camera than the apex.
     pub(super) fn on_plane(&self, seen: [f64; 2], depth_mm: f64) -> [f64; 2] {
         let [x, y] = seen;
         let from_middle = (x * x + y * y).sqrt();

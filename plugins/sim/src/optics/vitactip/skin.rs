@@ -6,12 +6,12 @@ use crate::optics::ambient::AmbientLight;
 /// Weight of a place in the dome: 1 inside, 0 outside, with an edge of width `edge`.
 ///
 /// # Units
-/// Radii of the rim, here and below.
+/// Radii of the rim, in this function and in the functions below.
 pub(super) fn inside(from_middle: f64, edge: f64) -> f64 {
     1.0 / (1.0 + libm::exp((from_middle - OUTLINE) / edge))
 }
 
-/// Radius of the visible outline: slightly outside the rim.
+/// Radius of the visible outline, in radii of the rim: slightly outside the rim.
 const OUTLINE: f64 = 47.0 / 46.0;
 
 /// Light of the dome's own lamps on skin of brightness 1: uniform, brighter in the centre, and a ring inside the rim.
@@ -19,7 +19,8 @@ pub(super) fn glow(from_middle: f64) -> f64 {
     7.0 + 9.0 * bell(from_middle, 30.0 / 46.0) + 5.0 * bell(from_middle - 42.0 / 46.0, 3.0 / 46.0)
 }
 
-/// Light that a scene adds to the skin, in DN (fit: mean gray 17, 28, 34.5 and 47 under S1 to S4, from 12).
+/// Light that a scene adds to the skin, in DN. It is fitted to mean grays of 17, 28, 34.5 and 47 DN under scenes S1 to S4. Without a scene, the mean
+/// gray is 12 DN.
 pub(super) fn outside(scene: AmbientLight, x: f64, y: f64) -> f64 {
     let from = |middle: f64| ((x - middle) * (x - middle) + y * y).sqrt();
     match scene {

@@ -9,41 +9,41 @@ use crate::parameters::{Dome, GelWear, Parameters};
 /// Places in the picture are in radii of the visible rim of the dome.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VitactipSpec {
-    /// Radius of the dome (geometry).
+    /// Radius of the dome (from the sensor's geometry).
     pub dome_radius_mm: f64,
-    /// Distance between apex and camera, on the axis (geometry).
+    /// Distance between apex and camera, on the axis (from the sensor's geometry).
     pub camera_distance_mm: f64,
-    /// Decay length of a dimple of the skin (literature: 1 mm of skin).
+    /// Decay length of a dimple of the skin (literature, for a skin of 1 mm).
     pub dimple_mm: f64,
-    /// Sway of the apex per lateral force (free).
+    /// Sway of the apex per lateral force (free parameter).
     pub sway_mm_per_n: f64,
     /// Number of rings of markers around the middle marker: 6 make 127 markers (literature).
     pub rings: i32,
     /// Distance between markers, projected along the axis (literature).
     pub marker_pitch_mm: f64,
-    /// Radius of a marker at the apex, in the picture (free).
+    /// Radius of a marker at the apex, in the picture (free parameter).
     pub marker_radius: f64,
-    /// Part of the light that a marker absorbs (free).
+    /// Part of the light that a marker absorbs (free parameter).
     pub marker_darkness: f64,
-    /// Standard deviation of marker places between units (free).
+    /// Standard deviation of marker places between units (free parameter).
     pub marker_jitter_mm: f64,
-    /// Brightness of the skin (fit: mean gray 12).
+    /// Brightness of the skin (fitted to a mean gray of 12 DN).
     pub skin_dn: f64,
-    /// Brightness outside the dome (free).
+    /// Brightness outside the dome (free parameter).
     pub surroundings_dn: f64,
-    /// Standard deviation of the skin's unevenness (free).
+    /// Standard deviation of the skin's unevenness (free parameter).
     pub unevenness: f64,
-    /// Brightening by the ball at first touch, and the further brightening at 3.5 mm depth (free).
+    /// Brightening by the ball at first touch, and the further brightening at 3.5 mm depth (free parameter).
     pub ball_glow: [f64; 2],
-    /// Contrast of a grating through the skin (fit).
+    /// Contrast of a grating through the skin (fitted).
     pub grating_contrast: f64,
-    /// Standard deviation of the blur by skin and lens, on the board (fit: gratings).
+    /// Standard deviation of the blur by skin and lens, on the board (fitted to gratings).
     pub blur_mm: f64,
-    /// Standard deviation of the lamps' gain between units (free).
+    /// Standard deviation of the lamps' gain between units (free parameter).
     pub lamp_gain_spread: f64,
     /// Diameter of the visible field, along x and y.
     pub field_mm: [f64; 2],
-    /// Wear of the skin, if any. A glossier skin reflects more of the ball (free).
+    /// Wear of the skin, if any. A glossier skin reflects more of the ball (free parameter).
     pub wear: Option<GelWear>,
 }
 
@@ -83,7 +83,7 @@ impl VitactipSpec {
     }
 }
 
-/// Mean gray of the untouched dome if `skin_dn` is 1.34 and `surroundings_dn` is 3.5 (fit).
+/// Mean gray, DN, of the untouched dome if `skin_dn` is 1.34 and `surroundings_dn` is 3.5 (fitted).
 const NOMINAL_GRAY: f64 = 12.0;
 
 fn rings(columns: f64) -> i32 {

@@ -1,9 +1,9 @@
 //! Fisher's linear discriminant.
 
-/// Classes with a common covariance.
+/// Linear classifier for classes with a common covariance.
 pub(crate) struct Discriminant {
     means: Vec<Vec<f64>>,
-    /// Covariance⁻¹ · mean of each class, and half of its product with the mean.
+    /// For each class: covariance⁻¹ · mean, and half the scalar product of this vector with the mean.
     weights: Vec<(Vec<f64>, f64)>,
 }
 
@@ -11,7 +11,7 @@ pub(crate) struct Discriminant {
 const RIDGE: f64 = 1e-3;
 
 impl Discriminant {
-    /// Learns from the vectors of each class.
+    /// Fits the classifier to the vectors of each class.
     pub(crate) fn learn(classes: &[Vec<Vec<f64>>]) -> Discriminant {
         let width = classes[0][0].len();
         let means: Vec<Vec<f64>> = classes

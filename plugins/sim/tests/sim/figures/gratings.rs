@@ -17,7 +17,7 @@ const STEP: usize = 5;
 /// Side of a board, mm. Its force is spread over this area.
 const BOARD_MM: f64 = 10.0;
 
-/// Published success rates of the dome: spacings classified with an error below these hundredths of a millimetre.
+/// Published success rates of the dome, by kind of grating: fractions of pictures classified with an error below each limit of [`BELOW`].
 const PUBLISHED: [(GratingKind, [f64; 5]); 2] = [
     (GratingKind::Line, [0.81, 0.88, 0.895, 0.948, 0.973]),
     (GratingKind::Dot, [0.80, 0.90, 0.923, 0.967, 0.983]),

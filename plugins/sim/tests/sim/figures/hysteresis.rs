@@ -7,13 +7,13 @@ use taceva_sim::{Bench, Model, Parameters, Press};
 
 /// Published areas under the loading and unloading curves, N·mm. The loop between them has 0.1558.
 const PUBLISHED: [f64; 2] = [0.7106, 0.5548];
-/// Travel of the published curve, and the zero of its force transducer.
+/// Greatest travel of the published curve, mm; the next constant is the zero of its force transducer.
 const DEEPEST_MM: f64 = 3.38;
 const ZERO_N: f64 = 0.004;
 /// Points per curve.
 const STEPS: u32 = 100;
 
-/// Dome of the page: F₀ = 0.0891 N/mm^1.5 · d^(3/2), the same at every place, without a force limit.
+/// Dome of the project page: unrelaxed force 0.0891 N/mm^1.5 · d^(3/2) at the depth d, the same at every place, without a force limit.
 fn dome_of_the_page() -> Parameters {
     let mut parameters = Model::ViTacTip.parameters();
     let taceva_sim::Body::Dome(dome) = &mut parameters.body else {

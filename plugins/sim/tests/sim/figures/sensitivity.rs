@@ -4,21 +4,22 @@ use taceva_sim::{Label, Model};
 
 use super::calibration::{SEEDS, labels};
 
-/// Bins along x and y.
+/// Number of bins along x, and along y.
 const BINS: usize = 15;
 /// Force below which the ratio of travel and force is ignored.
 const GATE_N: f64 = 0.02;
-/// Published S in mm/N and U.
+/// Published sensitivity S, mm/N, and uniformity U of each sensor.
 pub(crate) const PUBLISHED: [(Model, f64, f64); 4] = [
     (Model::GelSight, 0.857, 0.900),
     (Model::GelSightWm, 0.948, 0.892),
     (Model::MagicTac, 1.277, 0.875),
     (Model::ViTacTip, 6.753, 0.863),
 ];
-/// Allowed relative deviation of the bench.
+/// Allowed relative deviation of the bench from published values.
 pub(crate) const TOLERANCE: f64 = 0.05;
 
-/// S and U of one run, from Pz/Fz of every label and its mean in each bin: S is the mean μ of the bins, U is 1/(1 + σ/μ).
+/// Sensitivity S and uniformity U of one run, from Pz/Fz of every label and its mean in each bin: S is the mean μ of the bins, U is 1/(1 + σ/μ) with
+/// their standard deviation σ.
 pub(crate) fn sensitivity(model: Model, labels: &[Label]) -> (f64, f64) {
     let probing = model.parameters().probing;
     let half = [probing.half_width_mm, probing.half_height_mm];
@@ -54,7 +55,7 @@ pub(crate) fn sensitivity(model: Model, labels: &[Label]) -> (f64, f64) {
     (mean, 1.0 / (1.0 + variance.sqrt() / mean))
 }
 
-/// S and U, averaged over the runs.
+/// Sensitivity S and uniformity U, averaged over the runs.
 fn averaged(model: Model) -> (f64, f64) {
     let runs = SEEDS.map(|seed| sensitivity(model, &labels(model, seed)));
     let mean = |value: fn(&(f64, f64)) -> f64| runs.iter().map(value).sum::<f64>() / 3.0;

@@ -57,7 +57,7 @@ fn transposed(square: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Fast Fourier transform of Cooley and Tukey, in place. `turns` are sine and cosine of the fractions of half a turn backwards.
+/// Fast Fourier transform of Cooley and Tukey, in place. `turns` contains sine and cosine for fractions of half a turn, clockwise.
 fn transform(real: &mut [f64], imaginary: &mut [f64], turns: &[(f64, f64)]) {
     let length = real.len();
     let shift = usize::BITS - length.trailing_zeros();

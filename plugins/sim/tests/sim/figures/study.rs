@@ -1,5 +1,5 @@
-//! The same figures from complete runs of the calibration and load-unload phases of the paper's scene. The robot moves, the gel relaxes meanwhile,
-//! contact is searched from the air, and a supervisor ends a press at the force limit.
+//! Published figures compared with complete runs of the calibration and load-unload phases of the paper's scene. The robot moves, the gel relaxes
+//! meanwhile, contact is searched from the air, and a supervisor ends a press at the force limit.
 
 use taceva_protocol::{BuiltinScene, PhaseKind};
 use taceva_sim::{Label, Model};
@@ -7,7 +7,7 @@ use taceva_sim::{Label, Model};
 use super::sensitivity::{PUBLISHED, TOLERANCE, sensitivity};
 use crate::trial::{Log, Trial};
 
-/// Plan of the paper's protocol with one study: unit 0 of `model`. Only the presses of `kind` are made.
+/// Runs the presses of the phase `kind` in the paper's protocol, with unit 0 of `model`. Returns the trial and its log.
 fn records(model: Model, kind: PhaseKind) -> (Trial, Log) {
     let text = BuiltinScene::Paper.text();
     let (protocol, _) = text.split_once("[[study]]").expect("it has studies");

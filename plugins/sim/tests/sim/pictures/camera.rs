@@ -1,4 +1,4 @@
-//! Noise, sizes, determinism and errors.
+//! Camera of the bench: noise, sizes, determinism and errors.
 
 use std::thread;
 

@@ -1,4 +1,4 @@
-//! Light, symmetry and motion, by sensor.
+//! Gels of the bench: light, symmetry and motion, by sensor.
 
 use taceva_core::random::fnv_1a;
 use taceva_core::{GratingKind, Nanometre};

@@ -12,7 +12,7 @@ fn close(value: f64, reference: f64, relative: f64) {
     );
 }
 
-/// V9: E = 0.325 MPa, ν = 1/2, R = 2 mm, d = 1 mm, μ = 1, half-space.
+/// Check V9 of `docs/validation.md`: a half-space with E = 0.325 MPa, ν = 1/2, R = 2 mm, d = 1 mm and friction μ = 1.
 #[test]
 fn mindlin_s_contact_resists_as_the_closed_form_says() {
     let normal_n = hertz::force(hertz::reduced_modulus(0.325, 0.5), 2.0, 1.0);
@@ -27,7 +27,7 @@ fn mindlin_s_contact_resists_as_the_closed_form_says() {
     close(friction.load(0.3), 0.232_431_166_4, 1e-9);
 }
 
-/// V10.
+/// Check V10 of `docs/validation.md`.
 #[test]
 fn a_contact_starts_stiff_and_ends_sliding() {
     let friction = Friction {
@@ -45,7 +45,7 @@ fn a_contact_starts_stiff_and_ends_sliding() {
     }
 }
 
-/// V12: k = 1, d = 1, T = 1, g = 0.4, τ = 0.5.
+/// Check V12 of `docs/validation.md`: stiffness 1, depth 1, duration 1, relaxing fraction 0.4 and time constant 0.5.
 #[test]
 fn a_linear_solid_on_a_ramp_does_the_work_of_the_closed_form() {
     let steps = 2000;
@@ -61,7 +61,8 @@ fn a_linear_solid_on_a_ramp_does_the_work_of_the_closed_form() {
     close(area, 0.413_533_528_324, 1e-6);
 }
 
-/// V13: F₀ = 0.09096 d^(3/2) to 3.38 mm and back, g = 0.4636, τ = 1.5175 T.
+/// Check V13 of `docs/validation.md`: a ramp of the force 0.09096 d^(3/2) to 3.38 mm and back. The relaxing fraction is 0.4636, the time constant
+/// 1.5175 times the duration of the ramp.
 #[test]
 fn a_hertzian_solid_loses_the_work_of_the_hereditary_integral() {
     let (deepest, steps) = (3.38, 500);
@@ -96,7 +97,7 @@ fn indentation(place_mm: [f64; 2], depth_mm: f64) -> Indentation {
     }
 }
 
-/// V15: a closed loop never gains work, and a gel without relaxation loses none.
+/// Check V15 of `docs/validation.md`: a closed loop never gains work, and a gel without relaxation loses none.
 #[test]
 fn no_loop_gains_work_and_a_gel_without_memory_loses_none() {
     for model in Model::ALL {
@@ -126,7 +127,7 @@ fn no_loop_gains_work_and_a_gel_without_memory_loses_none() {
     }
 }
 
-/// V15: the force on the sensor is the sum of the forces along normal and tangent.
+/// Check V15 of `docs/validation.md`: the force on the sensor is the sum of the forces along normal and tangent.
 #[test]
 fn forces_along_normal_and_tangent_add_up() {
     for model in Model::ALL {
@@ -150,7 +151,8 @@ fn forces_along_normal_and_tangent_add_up() {
     }
 }
 
-/// V15: S(θ)/S(0) = 1/(cos² + μ sin cos) if everything slides, and 1/cos² without friction, for depths that do not change the normal.
+/// Check V15 of `docs/validation.md`: the sensitivity S at the angle θ from the apex, for depths that do not change the normal. S(θ)/S(0) is 1/(cos²
+/// θ + μ sin θ cos θ) if everything slides, and 1/cos² θ without friction.
 #[test]
 fn a_dome_looks_softer_towards_its_rim_by_geometry_alone() {
     let depth_mm = 1e-4;
@@ -180,7 +182,7 @@ fn a_dome_looks_softer_towards_its_rim_by_geometry_alone() {
     }
 }
 
-/// V16.
+/// Check V16 of `docs/validation.md`.
 #[test]
 fn turning_a_press_around_the_dome_turns_its_force() {
     let solid = Solid::new(&Model::ViTacTip.parameters());
@@ -207,7 +209,7 @@ fn turning_a_press_around_the_dome_turns_its_force() {
     }
 }
 
-/// V16: force laws are linear in the modulus.
+/// Check V16 of `docs/validation.md`: force laws are linear in the modulus.
 #[test]
 fn twice_the_stiffness_is_twice_the_force() {
     for model in Model::ALL {

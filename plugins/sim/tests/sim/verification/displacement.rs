@@ -28,7 +28,7 @@ fn row(thickness_mm: f64, depth_mm: f64, load: &Load) -> Profile {
     profile
 }
 
-/// V8: F = 1 N, E = 1 MPa, h = 4.25 mm, a = 1 mm.
+/// Check V8 of `docs/validation.md`: force 1 N, modulus 1 MPa, thickness 4.25 mm and contact radius 1 mm.
 #[test]
 fn a_layer_sinks_and_spreads_as_the_quadrature_says() {
     let load = unit_press();
@@ -62,7 +62,7 @@ fn a_layer_sinks_and_spreads_as_the_quadrature_says() {
     }
 }
 
-/// V8 for an infinitely thick layer.
+/// Check V8 of `docs/validation.md` for an infinitely thick layer.
 #[test]
 fn a_very_thick_layer_sinks_as_a_half_space() {
     let load = Load {
@@ -86,7 +86,7 @@ fn a_very_thick_layer_sinks_as_a_half_space() {
     }
 }
 
-/// V8 between the rows and nodes of the tables: closed forms of the half-space at radii without a row.
+/// Check V8 of `docs/validation.md` between the rows and nodes of the tables: closed forms of the half-space at radii without a row.
 #[test]
 fn places_between_nodes_are_as_good_as_nodes() {
     for radius in [0.173, 0.9, 1.37] {
@@ -135,7 +135,7 @@ fn slopes_are_the_gradient_of_the_height() {
     }
 }
 
-/// V16.
+/// Check V16 of `docs/validation.md`.
 #[test]
 fn turning_the_press_turns_the_field() {
     let load = Load {
@@ -161,7 +161,7 @@ fn turning_the_press_turns_the_field() {
     }
 }
 
-/// V16.
+/// Check V16 of `docs/validation.md`.
 #[test]
 fn the_field_of_a_shear_is_its_own_mirror_image() {
     let load = Load {
@@ -176,7 +176,7 @@ fn the_field_of_a_shear_is_its_own_mirror_image() {
     }
 }
 
-/// V16.
+/// Check V16 of `docs/validation.md`.
 #[test]
 fn twice_the_force_moves_the_gel_twice_as_far() {
     let load = Load {
@@ -199,8 +199,8 @@ fn twice_the_force_moves_the_gel_twice_as_far() {
     }
 }
 
-/// Below the surface of a thick layer under nearly a point load, the field is Boussinesq's for an incompressible half-space: u_z = 3F/(4πE) (1/R)(1 +
-/// z²/R²) and u_r = 3F/(4πE) z r/R³ with R² = r² + z².
+/// The field below a thick layer's surface under nearly a point load F is Boussinesq's for an incompressible half-space of modulus E: u_z = 3F/(4πE)
+/// (1/R)(1 + z²/R²) and u_r = 3F/(4πE) z r/R³ with R² = r² + z².
 #[test]
 fn deep_below_a_small_contact_the_field_is_that_of_a_point_force() {
     let load = Load {

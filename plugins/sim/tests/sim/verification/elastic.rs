@@ -10,14 +10,14 @@ fn close(value: f64, reference: f64, relative: f64) {
     );
 }
 
-/// V1, V2.
+/// Checks V1 and V2 of `docs/validation.md`.
 #[test]
 fn hertz_force_is_the_closed_form() {
     close(hertz::force(1.0, 2.0, 1.0), 1.885_618_083_16, 1e-9);
     close(hertz::force(1.0, 10.0, 0.5), 1.490_711_985, 1e-9);
 }
 
-/// V3.
+/// Check V3 of `docs/validation.md`.
 #[test]
 fn force_on_a_half_space_grows_with_depth_to_the_power_of_three_halves() {
     for depth in [0.1_f64, 0.5, 2.0] {
@@ -26,7 +26,7 @@ fn force_on_a_half_space_grows_with_depth_to_the_power_of_three_halves() {
     }
 }
 
-/// V4.
+/// Check V4 of `docs/validation.md`.
 #[test]
 fn the_surface_outside_the_contact_is_hertz_s() {
     let known = [
@@ -40,7 +40,7 @@ fn the_surface_outside_the_contact_is_hertz_s() {
     }
 }
 
-/// V5, compared with numerical integration of the layer's differential equation at high precision.
+/// Check V5 of `docs/validation.md`: comparison with numerical integration of the layer's differential equation at high precision.
 #[test]
 fn the_layer_answers_waves_as_its_differential_equation_says() {
     let known = [
@@ -83,7 +83,7 @@ fn the_layer_answers_waves_as_its_differential_equation_says() {
     }
 }
 
-/// (χ, ψ, a/a_H) of the boundary-element solution: 200 rings, converged to 3·10⁻⁶.
+/// Boundary-element solution with 200 rings, converged to 3·10⁻⁶: the ratio χ, the force ratio ψ and the ratio a/a_H of contact radii.
 const BOUNDARY_ELEMENTS: [(f64, f64, f64); 7] = [
     (0.05, 1.060_24, 1.024),
     (0.10, 1.129_09, 1.045),
@@ -94,7 +94,7 @@ const BOUNDARY_ELEMENTS: [(f64, f64, f64); 7] = [
     (1.00, 5.115_37, 1.41),
 ];
 
-/// V6.
+/// Check V6 of `docs/validation.md`.
 #[test]
 fn the_force_on_a_layer_is_that_of_the_boundary_elements() {
     for (chi, force, radius) in BOUNDARY_ELEMENTS {
@@ -103,7 +103,8 @@ fn the_force_on_a_layer_is_that_of_the_boundary_elements() {
     }
 }
 
-/// V7: the published polynomials agree for thin indentations, for which they were made, and are known to deviate beyond.
+/// Check V7 of `docs/validation.md`: the published polynomials agree for thin indentations, for which they were made, and are known to deviate
+/// beyond.
 #[test]
 fn published_polynomials_agree_at_small_depths_and_part_at_large_ones() {
     // Dimitriadis et al., Biophysical Journal 82 (2002), bonded, ν = 1/2.
@@ -122,7 +123,7 @@ fn published_polynomials_agree_at_small_depths_and_part_at_large_ones() {
     assert!((low_by(1.0) - 0.163).abs() < 0.005, "{}", low_by(1.0));
 }
 
-/// V11.
+/// Check V11 of `docs/validation.md`.
 #[test]
 fn the_tangential_stiffness_of_a_layer_is_the_quadrature_of_its_kernel() {
     for (chi, expected) in [(0.1, 1.046_066), (0.333, 1.167_851), (1.0, 1.598_374)] {
@@ -130,7 +131,7 @@ fn the_tangential_stiffness_of_a_layer_is_the_quadrature_of_its_kernel() {
     }
 }
 
-/// V14.
+/// Check V14 of `docs/validation.md`.
 #[test]
 fn kelvin_s_function_has_its_tabled_values() {
     for (x, expected) in [

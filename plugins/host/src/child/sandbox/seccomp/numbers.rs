@@ -1,6 +1,6 @@
 //! Numbers of the allowed system calls.
 
-/// Calls allowed with any arguments: memory, threads and time of the process itself, and files that are open or allowed by Landlock.
+/// System calls allowed with any arguments, for memory, threads and time of the process itself, and for files that are open or allowed by Landlock.
 pub(super) const ALWAYS: &[i64] = &[
     // Memory.
     libc::SYS_brk,
@@ -88,7 +88,7 @@ pub(super) const ALWAYS: &[i64] = &[
     libc::SYS_uname,
 ];
 
-/// Older numbers of the same calls, present only on x86-64.
+/// Older numbers of the calls in [`ALWAYS`], present only on x86-64.
 #[cfg(target_arch = "x86_64")]
 pub(super) const ALWAYS_TOO: &[i64] = &[
     libc::SYS_access,
@@ -109,7 +109,7 @@ pub(super) const ALWAYS_TOO: &[i64] = &[
 #[cfg(not(target_arch = "x86_64"))]
 pub(super) const ALWAYS_TOO: &[i64] = &[];
 
-/// Calls of a process that may open sockets.
+/// System calls allowed to a process that may open sockets.
 pub(super) const SOCKETS: &[i64] = &[
     libc::SYS_bind,
     libc::SYS_connect,
@@ -119,7 +119,7 @@ pub(super) const SOCKETS: &[i64] = &[
     libc::SYS_setsockopt,
 ];
 
-/// Calls of a process that may listen for connections.
+/// System calls allowed to a process that may listen for connections.
 pub(super) const LISTENING: &[i64] = &[libc::SYS_accept, libc::SYS_accept4, libc::SYS_listen];
 
 /// Allowed `fcntl` commands. None of them lets the kernel signal another process.
@@ -133,7 +133,7 @@ pub(super) const FILE_CONTROLS: &[i32] = &[
     libc::F_GET_SEALS,
 ];
 
-/// Allowed `prctl` commands: names of threads and memory, and queries.
+/// Allowed `prctl` commands, which set names of threads and memory or query the process.
 pub(super) const PROCESS_CONTROLS: &[i32] = &[
     libc::PR_SET_NAME,
     libc::PR_GET_NAME,
