@@ -59,13 +59,15 @@ pub(crate) struct ReadScore {
     n_invalid: u64,
     reason: Option<String>,
     standing: Option<&'static str>,
+    interval_reason: Option<String>,
 }
 
 impl From<Score> for ReadScore {
     fn from(score: Score) -> ReadScore {
-        let interval = match score.interval {
-            Some(Interval::Ends { ends, method, .. }) => Some((ends[0], ends[1], method)),
-            Some(Interval::Absent(_)) | None => None,
+        let (interval, interval_reason) = match score.interval {
+            Some(Interval::Ends { ends, method, .. }) => (Some((ends[0], ends[1], method)), None),
+            Some(Interval::Absent(reason)) => (None, Some(reason)),
+            None => (None, None),
         };
         ReadScore {
             value: score.value.number(),
@@ -80,6 +82,7 @@ impl From<Score> for ReadScore {
             n: score.n,
             n_invalid: score.n_invalid,
             standing: score.standing.words(),
+            interval_reason,
         }
     }
 }
@@ -107,9 +110,10 @@ pub(crate) fn score_table(texts: Vec<String>, form: &str) -> PyResult<String> {
     let shown = scores.headlines();
     match form {
         "csv" => Ok(scores.every_number().csv()),
-        "tex" => Ok(shown.for_papers("Scores").latex(Layout::Float)),
+        "tex" => Ok(shown.for_papers(&shown.title()).latex(Layout::Float)),
         form => {
             let mut table = shown.for_pages();
+            table.caption = shown.title();
             if let Some(note) = left_out(&scores, &shown) {
                 table.note(note);
             }

@@ -207,6 +207,29 @@ def test_a_result_is_a_frame_a_table_and_a_page(tmp_path: Path) -> None:
     assert frame.attrs["source"] == "unknown"
 
 
+def test_print_page_and_latex_state_the_number_of_samples_and_of_clusters_once() -> None:
+    truth, prediction, points = (array[:600] for array in arrays())
+    result = taceva.score(truth, prediction, points=points, name="mine")
+    title = "Scores of mine on 600 samples in 50 clusters by contact point, with 95 "
+    for shown in (str(result), result._repr_html_(), result.to_latex()):
+        assert shown.count(title) >= 1, shown
+    assert str(result).count(" 600 ") == 1
+    alone = taceva.score(truth, prediction, independent=True)
+    assert "Scores of predictions on 600 samples, with 95 % intervals." in str(alone)
+
+
+def test_a_score_without_an_interval_has_the_reason_and_the_table_states_it_once() -> None:
+    truth, prediction, points = (array[:600] for array in arrays())
+    result, pointed = taceva.score(truth, prediction), taceva.score(truth, prediction, points=points)
+    assert {score.interval_reason for score in result.scores()} == {"samples without point_id"}
+    assert {score.interval_reason for score in pointed.scores()} == {None}
+    assert str(result).count("samples without point_id") == 1
+    assert set(result.to_frame()["interval_reason"]) == {"samples without point_id"}
+    comparison = str(taceva.compare(result, result, metrics=["mae"]))
+    assert "has an interval, so no difference is tested: samples without point_id" in " ".join(comparison.split())
+    assert "skill" not in comparison
+
+
 def test_whatever_is_shown_of_samples_that_nobody_measured_says_so(tmp_path: Path) -> None:
     labels = np.random.default_rng(1).uniform(size=(40, 1))
     frames = (200 * labels[:, :, None] + np.arange(8)).astype(np.uint8).repeat(6, axis=1)

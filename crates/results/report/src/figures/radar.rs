@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use taceva_metrics::{Better, Standing};
 
 use crate::figure::{Anchor, Canvas, Figure, Ink, Label, Points, SERIES, Stroke, short};
+use crate::names::{listed, noun};
 use crate::number::numeral;
 use crate::results::{PUBLISHED, Study};
 use taceva_results::Score;
@@ -78,15 +79,18 @@ pub(super) struct Rim<'a> {
 /// Width of a radar that fits a phone, with axis names in two lines.
 pub(super) const WIDTH: f64 = 440.0;
 const RADIUS: f64 = 130.0;
+/// Least number of axes of a radar. Fewer axes enclose no area.
+const FEWEST_AXES: usize = 3;
 
 /// Radars of accuracy, sensor and robustness; empty for a single study.
 pub(super) fn draw(studies: &[Study]) -> Vec<Option<Figure>> {
     if studies.len() < 2 {
         return Vec::new();
     }
+    let title = format!("The {}s at a glance", noun(studies));
     vec![
         one(studies, &ACCURACY, "radar-accuracy", "Accuracy at a glance"),
-        one(studies, &SENSOR, "radar-sensor", "The sensors at a glance"),
+        one(studies, &SENSOR, "radar-sensor", &title),
         one(
             studies,
             &ROBUSTNESS,
@@ -96,10 +100,16 @@ pub(super) fn draw(studies: &[Study]) -> Vec<Option<Figure>> {
     ]
 }
 
+/// Radar of the axes on which a study has a value; `None` for fewer than three such axes, or if verdicts exclude all values.
 fn one(studies: &[Study], axes: &[Axis], id: &str, title: &str) -> Option<Figure> {
     let names = crate::names::names(studies);
     let deciding: Vec<Study> = studies.iter().map(Study::deciding).collect();
     let studies = deciding.as_slice();
+    let (axes, empty): (Vec<&Axis>, Vec<&Axis>) =
+        axes.iter().partition(|axis| axis.has_value(studies));
+    if axes.len() < FEWEST_AXES {
+        return None;
+    }
     let shares: Vec<Vec<Option<(f64, f64)>>> =
         axes.iter().map(|axis| axis.shares(studies)).collect();
     if shares.iter().all(|axis| axis.iter().all(Option::is_none)) {
@@ -154,9 +164,11 @@ fn one(studies: &[Study], axes: &[Axis], id: &str, title: &str) -> Option<Figure
         id: id.to_owned(),
         title: title.to_owned(),
         caption: format!(
-            "Each axis shows a share of the best sensor shown: value / best if more is better (↑), best / value if less is better (↓). The rim is the best value, even if no test shows a difference.{gaps}{barred}{}{}",
-            without_value(studies, axes),
-            unproven(studies, axes)
+            "Each axis shows a share of the best {} shown: value / best if more is better (↑), best / value if less is better (↓). The rim is the best value, even if no test shows a difference.{}{gaps}{barred}{}{}",
+            noun(studies),
+            left_out(&empty),
+            without_value(studies, &axes),
+            unproven(studies, &axes)
         ),
         description: format!(
             "A radar of {} for {}.",
@@ -164,7 +176,7 @@ fn one(studies: &[Study], axes: &[Axis], id: &str, title: &str) -> Option<Figure
                 .map(|axis| axis.name)
                 .collect::<Vec<_>>()
                 .join(", "),
-            crate::names::listed(&legend.into_iter().map(|(_, name)| name).collect::<Vec<_>>())
+            listed(&legend.into_iter().map(|(_, name)| name).collect::<Vec<_>>())
         ),
         canvas,
     })
@@ -177,8 +189,20 @@ struct Barred {
     reason: &'static str,
 }
 
+/// Sentence on the `empty` axes, on which no study has a value; empty if there are none.
+fn left_out(empty: &[&Axis]) -> String {
+    let names: Vec<String> = empty.iter().map(|axis| axis.name.to_owned()).collect();
+    match names.is_empty() {
+        true => String::new(),
+        false => format!(
+            " Axes left out, because no result has a value: {}.",
+            listed(&names)
+        ),
+    }
+}
+
 /// Sentence with the number of studies without a value on any axis; empty if there are none.
-fn without_value(studies: &[Study], axes: &[Axis]) -> String {
+fn without_value(studies: &[Study], axes: &[&Axis]) -> String {
     let has_none = |study: &&Study| {
         let mut scores = axes
             .iter()
@@ -193,7 +217,7 @@ fn without_value(studies: &[Study], axes: &[Axis]) -> String {
 }
 
 /// Caption remarks on published values and unknown skill.
-fn unproven(studies: &[Study], axes: &[Axis]) -> String {
+fn unproven(studies: &[Study], axes: &[&Axis]) -> String {
     let drawn = |study| axes.iter().filter_map(move |axis| axis.drawn(study));
     let any = |of: fn(&Score) -> bool| studies.iter().flat_map(drawn).any(of);
     let mut out = String::new();
@@ -231,6 +255,22 @@ pub(super) fn shares(values: &[Option<f64>], better: Better) -> Vec<Option<(f64,
 }
 
 impl Axis {
+    /// Value of `score` on this axis; `None` if the score or its variant has no number.
+    fn value(&self, score: &Score) -> Option<f64> {
+        match self.variant {
+            "" => score.value.number(),
+            variant => score.variant(variant)?.value.number(),
+        }
+    }
+
+    /// True if a study has a value on this axis, even if verdicts exclude it.
+    fn has_value(&self, studies: &[Study]) -> bool {
+        let mut scores = studies
+            .iter()
+            .filter_map(|study| study.score(self.metric, self.channel));
+        scores.any(|score| self.value(score).is_some())
+    }
+
     /// Score of `study` for this axis.
     fn drawn<'a>(&self, study: &'a Study) -> Option<&'a Score> {
         let score = study.score(self.metric, self.channel)?;
@@ -270,19 +310,12 @@ impl Axis {
 
     /// Ratio to the best value, and value, of each study.
     fn shares(&self, studies: &[Study]) -> Vec<Option<(f64, f64)>> {
-        let value = |score: &Score| {
-            if self.variant.is_empty() {
-                score.value.number()
-            } else {
-                score.variant(self.variant)?.value.number()
-            }
-        };
         let values: Vec<Option<f64>> = studies
             .iter()
             .map(|study| {
                 let found = study.score(self.metric, self.channel);
                 let found = found.filter(|score| self.without_place(score).is_none());
-                found.and_then(value)
+                found.and_then(|score| self.value(score))
             })
             .collect();
         shares(&values, self.better)

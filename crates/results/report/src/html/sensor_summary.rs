@@ -1,25 +1,26 @@
-//! Summary of the studied sensors in one or two sentences.
+//! Summary of the studies in one or two sentences.
 
 use std::collections::BTreeSet;
 
 use taceva_core::counted;
 
-use crate::names::{listed, names};
+use crate::names::{listed, names, noun};
 use crate::results::Study;
 
-/// Sentence on the number of sensors, presses and points, the channels, and the model.
+/// Sentence on the number of studies, presses and points, the channels, and the model.
 pub(super) fn studied(studies: &[Study]) -> String {
+    let noun = noun(studies);
     let mut out = format!(
         "{}: {}.",
-        counted(studies.len(), "sensor"),
+        counted(studies.len(), noun),
         listed(&names(studies))
     );
     let presses = counted_span(studies, "press", |study| whole(study.made.presses));
     let points = counted_span(studies, "contact point", points);
     match (presses, points) {
-        (Some(presses), Some(points)) => out += &format!(" {presses} and {points} a sensor."),
-        (Some(presses), None) => out += &format!(" {presses} a sensor."),
-        (None, Some(points)) => out += &format!(" {points} a sensor."),
+        (Some(presses), Some(points)) => out += &format!(" {presses} and {points} a {noun}."),
+        (Some(presses), None) => out += &format!(" {presses} a {noun}."),
+        (None, Some(points)) => out += &format!(" {points} a {noun}."),
         (None, None) => {}
     }
     let mut channels: Vec<String> = Vec::new();
