@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use pyo3::prelude::*;
 use serde::Serialize;
-use taceva_report::{CompareRequest, Layout, ScoreTable, Study, Table, compare};
+use taceva_report::{CompareRequest, Figure, Layout, ScoreTable, Study, Table, compare};
 use taceva_results::{EvaluationReport, Interval, Samples, Score, Value};
 
 use crate::errors::value_error;
@@ -152,10 +152,11 @@ pub(crate) struct Drawn {
     svg: String,
 }
 
-/// All figures with data in `texts` of results files, in the order of reports.
+/// All figures with data in `texts` of results files, in the order of reports. With `metrics`, figures of a comparison of these metrics come first.
 #[pyfunction]
-pub(crate) fn figures(texts: Vec<String>) -> PyResult<Vec<Drawn>> {
-    let figures = taceva_report::figures(&studies(&texts)?).into_iter();
+#[pyo3(signature = (texts, metrics=None))]
+pub(crate) fn figures(texts: Vec<String>, metrics: Option<Vec<String>>) -> PyResult<Vec<Drawn>> {
+    let figures = figures_of(&texts, metrics)?.into_iter();
     let drawn = figures.map(|figure| Drawn {
         svg: figure.svg(),
         name: figure.id,
@@ -166,10 +167,28 @@ pub(crate) fn figures(texts: Vec<String>) -> PyResult<Vec<Drawn>> {
     Ok(drawn.collect())
 }
 
-/// The figure called `name` as a PDF file.
+fn figures_of(texts: &[String], metrics: Option<Vec<String>>) -> PyResult<Vec<Figure>> {
+    let studies = studies(texts)?;
+    let Some(metrics) = metrics else {
+        return Ok(taceva_report::figures(&studies));
+    };
+    let request = CompareRequest {
+        metrics,
+        ..CompareRequest::default()
+    };
+    let request = request.resolved(&studies).map_err(value_error)?;
+    Ok(compare(&studies, &request).figures(&studies))
+}
+
+/// The figure called `name`, among those of [`figures`], as a PDF file.
 #[pyfunction]
-pub(crate) fn figure_pdf(texts: Vec<String>, name: &str) -> PyResult<Vec<u8>> {
-    let figures = taceva_report::figures(&studies(&texts)?);
+#[pyo3(signature = (texts, name, metrics=None))]
+pub(crate) fn figure_pdf(
+    texts: Vec<String>,
+    name: &str,
+    metrics: Option<Vec<String>>,
+) -> PyResult<Vec<u8>> {
+    let figures = figures_of(&texts, metrics)?;
     let figure = figures.iter().find(|figure| figure.id == name);
     let figure = figure.ok_or_else(|| value_error(format_args!("no figure {name:?}")))?;
     Ok(figure.pdf())

@@ -321,6 +321,17 @@ def test_a_comparison_has_a_narrow_table_of_the_main_scores_for_a_paper() -> Non
         comparison.to_latex("wide")
 
 
+def test_the_first_figure_of_a_comparison_has_the_values_of_the_asked_metric_with_intervals(tmp_path: Path) -> None:
+    truth, prediction, points = (array[:600] for array in arrays())
+    results = [taceva.score(truth, truth + scale * (prediction - truth), points=points) for scale in (0.5, 1)]
+    figures = taceva.compare(*results, metrics=["mae"]).figures()
+    assert figures[0].name == "intervals-mae" and "n is 600." in figures[0].caption
+    assert [figure.name for figure in figures].count("intervals-mae") == 1
+    figures[0].save(tmp_path / "mae.pdf")
+    assert (tmp_path / "mae.pdf").read_bytes().startswith(b"%PDF")
+    assert all(not figure.name.startswith("intervals") for figure in results[0].figures())
+
+
 def test_a_score_of_arrays_has_the_name_of_the_caller_in_tables_and_comparisons() -> None:
     truth, prediction, points = (array[:600] for array in arrays())
     results = [taceva.score(truth, prediction, points=points, name=name) for name in ("mine", "theirs")]

@@ -5,6 +5,7 @@ mod fault_grid;
 mod gaps;
 mod heat;
 mod histograms;
+mod intervals;
 mod levels;
 mod lighting;
 mod loops;
@@ -22,6 +23,7 @@ mod spatial;
 mod thin;
 mod undrawn;
 
+pub(crate) use intervals::intervals;
 pub use models::model_bench;
 pub use of_study::{StudyFigures, study_figures};
 pub use race::{Race, RacePoint, race};

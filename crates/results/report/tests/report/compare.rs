@@ -304,6 +304,24 @@ fn a_page_says_who_is_better_and_has_radars_only_if_some_are_drawn() {
 }
 
 #[test]
+fn a_page_draws_the_values_of_each_asked_metric_with_intervals_and_n() {
+    let studies = errors(&[("one", 0.25), ("two", 0.75)]);
+    let comparison = of_metric(&studies, "mae");
+    let page = comparison.page(&studies);
+    assert_eq!(page.matches("id=\"figure-intervals-").count(), 1, "{page}");
+    let figure = comparison.figures(&studies).remove(0);
+    assert_eq!(figure.id, "intervals-mae");
+    assert!(figure.caption.ends_with(" n is 80."), "{}", figure.caption);
+    let svg = figure.svg();
+    for words in [
+        "one, Fz: 0.250 N (0.230 … 0.270), n = 80",
+        "two, Fz: 0.750 N (0.730 … 0.770), n = 80",
+    ] {
+        assert!(svg.contains(words), "{words}: {svg}");
+    }
+}
+
+#[test]
 fn the_summary_counts_single_pairs_of_units_as_one_cause() {
     let of = |sensor| {
         let mut units = score(0.5, 0.01, "N");
