@@ -230,6 +230,25 @@ def test_a_score_without_an_interval_has_the_reason_and_the_table_states_it_once
     assert "skill" not in comparison
 
 
+def test_a_report_is_the_page_of_the_command_and_replaces_none_by_itself(tmp_path: Path) -> None:
+    truth, prediction, points = (array[:600] for array in arrays())
+    result = taceva.score(truth, prediction, points=points, name="mine")
+    page = taceva.report(result, tmp_path / "of_result")
+    assert page == tmp_path / "of_result" / "report.html"
+    result.save(tmp_path / "mine.json")
+    result.save_samples(tmp_path / "mine.samples.csv")
+    assert taceva.report(tmp_path / "mine.json", tmp_path / "of_file").read_bytes() == page.read_bytes()
+    done = command("report", tmp_path / "mine.json", "--out", tmp_path / "of_command", "--quiet")
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "of_command" / "report.html").read_bytes() == page.read_bytes()
+    assert (tmp_path / "of_result" / "figures" / "predicted-1.svg").is_file()
+    with pytest.raises(ValueError, match="exists already"):
+        taceva.report(result, tmp_path / "of_result")
+    assert taceva.report(result, tmp_path / "of_result", replace=True) == page
+    with pytest.raises(ValueError, match="no such file or folder"):
+        taceva.report(tmp_path / "nowhere.json", tmp_path / "none")
+
+
 def test_whatever_is_shown_of_samples_that_nobody_measured_says_so(tmp_path: Path) -> None:
     labels = np.random.default_rng(1).uniform(size=(40, 1))
     frames = (200 * labels[:, :, None] + np.arange(8)).astype(np.uint8).repeat(6, axis=1)

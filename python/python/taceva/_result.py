@@ -210,7 +210,7 @@ class Result(Mapping[tuple[str, str], Score]):
     def figures(self) -> list[Figure]:
         """Return all figures for which the scores have data.
 
-        ``taceva report`` also draws the samples: save them by `save_samples` beside the result.
+        `report` also draws the samples, on a page.
         """
         return figures_of([self._text])
 
