@@ -44,7 +44,7 @@ impl Context {
     }
 
     /// Context of a command in another program: one thread, because the caller decides on the number of threads, and no messages.
-    pub(crate) fn silent(plugins: &PluginArgs) -> Context {
+    pub(crate) fn embedded(plugins: &PluginArgs) -> Context {
         Context {
             progress: TerminalProgress::new(true, false),
             jobs: NonZeroUsize::MIN,

@@ -18,8 +18,8 @@ mod output;
 mod process_limits;
 mod progress;
 mod report;
+mod result_page;
 mod stderr;
-mod written_report;
 
 // Linked for its drivers: a crate that is only named in Cargo.toml is not linked.
 use taceva_sim as _;
@@ -45,7 +45,7 @@ use invocation::Invocation;
 
 pub use bundle_verification::{BundleVerification, verify_bundle};
 pub use metrology::{Metrology, metrology};
-pub use written_report::write_report;
+pub use result_page::write_report;
 
 /// Serves another `taceva` and exits, if this process was started as its child process; otherwise returns. A `main` that does not begin with this
 /// function has no child processes. Plugins in libraries are then rejected unless an interpreter was named for them ([`taceva_host::run_within`]).

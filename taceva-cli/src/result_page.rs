@@ -1,4 +1,4 @@
-//! Report of a result for programs that embed the command.
+//! Page of a result for programs that embed the command.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -25,6 +25,6 @@ pub fn write_report<W: Into<OsString> + Clone>(
     let Some(Command::Report(args)) = &cli.command else {
         return Err(anyhow!("expected the command `report`"));
     };
-    let context = Context::silent(&cli.everywhere.plugins);
+    let context = Context::embedded(&cli.everywhere.plugins);
     Ok(cmd::report::written(args, &context)?.page)
 }
