@@ -44,8 +44,7 @@ class Comparison:
 
         First come the values of each of the ``metrics`` of `compare` with intervals. Other figures are of every metric that the results have.
         """
-        texts, _, metrics, _, _ = self._asked
-        return figures_of(texts, metrics)
+        return figures_of(self._asked[0], self._asked[2])
 
     def __str__(self) -> str:
         return self._form("text")
