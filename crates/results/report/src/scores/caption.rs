@@ -57,8 +57,8 @@ impl ScoreTable {
         main.captioned(what)
     }
 
-    /// Caption of all rows: `Scores of GelSight (ridge) on 80 simulated test samples in 20 clusters by contact point, with 95 % intervals.` A second sentence has
-    /// the range of numbers of samples, if they differ.
+    /// Caption of all rows: `Scores of GelSight (ridge) on 80 simulated test samples in 20 clusters by contact point, with 95 % intervals.` A second
+    /// sentence has the range of numbers of samples, if they differ.
     pub fn title(&self) -> String {
         let caption = self.captioned("Scores");
         let counts: BTreeSet<u64> = self.valued().map(|cell| cell.n).collect();
