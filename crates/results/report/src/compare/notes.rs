@@ -28,21 +28,29 @@ pub(super) fn notes(
         .into_iter()
         .chain(skill.flatten())
         .chain(unmeasured(studies))
-        .chain(without_intervals(studies, names, is_asked))
+        .chain(without_intervals(studies, names, answers, is_asked))
         .chain(trainings(names, answers))
         .chain(unpaired)
         .chain(unknown(studies, request))
         .collect()
 }
 
-/// Notes on studies whose scores of the metrics that `is_asked` selects all lack intervals for one reason.
+/// Notes on measured studies without a tested difference. Their scores of the metrics that `is_asked` selects all lack intervals for one reason.
 fn without_intervals(
     studies: &[Study],
     names: &[String],
+    answers: &[Answer],
     is_asked: impl Fn(&str) -> bool,
 ) -> Vec<String> {
     let mut by_reason: BTreeMap<&str, Vec<String>> = BTreeMap::new();
-    for (study, name) in studies.iter().zip(names) {
+    for (at, (study, name)) in studies.iter().zip(names).enumerate() {
+        // Exact predictions have no interval, but are compared sample by sample.
+        let is_tested = answers.iter().any(|answer| {
+            answer.difference.is_some() && [answer.sides.a, answer.sides.b].contains(&at)
+        });
+        if is_tested || study.source == "published" {
+            continue;
+        }
         let scores = study.scores.iter().filter(|score| {
             score.value.number().is_some()
                 && score.better() != Better::Described
@@ -59,8 +67,14 @@ fn without_intervals(
         }
     }
     let notes = by_reason.into_iter().map(|(reason, names)| {
+        let remedy = match reason.contains("cluster") || reason.contains("point_id") {
+            true => {
+                "; an interval needs at least five contact points or groups, or samples that are declared independent"
+            }
+            false => "",
+        };
         format!(
-            "no score of {} has an interval, so no difference is tested: {reason}; an interval needs five contact points or more, or samples that are declared independent",
+            "no score of {} has an interval, so no difference is tested: {reason}{remedy}",
             listed(&names)
         )
     });

@@ -102,16 +102,18 @@ mod tests {
 
     #[test]
     fn one_press_is_one_press_and_several_numbers_are_a_range() {
-        let study = |presses| Study {
-            sensor: "A".to_owned(),
+        let study = |sensor: &str, presses| Study {
+            sensor: sensor.to_owned(),
             made: Made {
                 presses,
                 ..Made::default()
             },
             ..Study::default()
         };
-        assert_eq!(studied(&[study(1)]), "1 sensor: A. 1 press a sensor.");
-        let said = studied(&[study(1), study(3)]);
+        assert_eq!(studied(&[study("A", 1)]), "1 sensor: A. 1 press a sensor.");
+        let said = studied(&[study("A", 1), study("B", 3)]);
         assert!(said.ends_with(" 1 to 3 presses a sensor."), "{said}");
+        let said = studied(&[study("A", 1), study("A", 3)]);
+        assert!(said.ends_with(" 1 to 3 presses a result."), "{said}");
     }
 }
