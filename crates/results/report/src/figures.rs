@@ -16,6 +16,7 @@ mod overlay;
 mod predictions;
 mod race;
 mod radar;
+mod radar_web;
 mod repeats;
 mod resolution;
 mod sensitivity;
