@@ -15,7 +15,9 @@ pub(super) fn barred(scores: Sides<&Score>, names: Sides<&str>) -> Option<String
         .into_iter()
         .filter_map(|(score, name)| match score.standing.reason() {
             Some(reason) => Some(match &score.interval {
-                Some(Interval::Absent(why)) if score.standing == Standing::NoInterval => {
+                Some(Interval::Absent(why))
+                    if score.standing == Standing::NoInterval && is_of_clusters(why) =>
+                {
                     let phrase = score.standing.phrase().unwrap_or(reason);
                     format!("{name}: {phrase}: {why}")
                 }
@@ -25,6 +27,11 @@ pub(super) fn barred(scores: Sides<&Score>, names: Sides<&str>) -> Option<String
         })
         .collect();
     (!reasons.is_empty()).then(|| reasons.join("; "))
+}
+
+/// True if an interval is absent for `reason` because of the contact points or groups, and not because of the metric.
+pub(super) fn is_of_clusters(reason: &str) -> bool {
+    reason.contains("cluster") || reason.contains("point_id")
 }
 
 /// Reason why numbers of a catalogue give no verdict: they have different samples or definitions.

@@ -67,7 +67,7 @@ fn without_intervals(
         }
     }
     let notes = by_reason.into_iter().map(|(reason, names)| {
-        let remedy = match reason.contains("cluster") || reason.contains("point_id") {
+        let remedy = match comparability::is_of_clusters(reason) {
             true => {
                 "; an interval needs at least five contact points or groups, or samples that are declared independent"
             }

@@ -52,7 +52,8 @@ pub(crate) fn intervals(studies: &[Study], metric: &str) -> Option<Figure> {
     let units = distinct(dots.iter().map(|dot| dot.score.unit));
     let first = Area {
         left: 62.0,
-        top: 46.0,
+        // Below a legend with one row for each name.
+        top: 14.0 + 16.0 * names.len() as f64,
         width: 300.0,
         height: 200.0,
     };
