@@ -1,8 +1,10 @@
 //! Tests of requested metrics, and of metrics of another version.
 
+use super::pairs::sampled;
 use super::{of_metric, score, study};
 use serde_json::json;
 use taceva_report::{CompareRequest, Comparison, ScoreTable, Study, compare};
+use taceva_results::Interval;
 
 /// Two sensors; the second has the smaller errors.
 fn two() -> [Study; 2] {
@@ -170,4 +172,23 @@ fn the_reason_why_no_score_has_an_interval_is_stated_once() {
         scores.title(),
         "Scores of 2 sensors on 80 simulated samples each, without intervals (samples without point_id)."
     );
+    let published = studies.map(|study| Study {
+        source: "published".to_owned(),
+        ..study
+    });
+    let notes = of_metric(&published, "mae").notes;
+    assert!(!notes.iter().any(|note| note.starts_with("no score of")));
+}
+
+#[test]
+fn a_tested_score_without_an_interval_has_no_note_that_nothing_is_tested() {
+    let mut studies =
+        [("exact", 0.25), ("other", 0.5)].map(|(name, error)| sampled(name, 0.0, error));
+    for score in &mut studies[0].scores {
+        score.interval = Some(Interval::Absent("the score is at its end".to_owned()));
+    }
+    let comparison = of_metric(&studies, "mae");
+    assert!(comparison.answers[0].difference.is_some());
+    let mut notes = comparison.notes.iter();
+    assert!(!notes.any(|note| note.starts_with("no score of")));
 }
