@@ -18,6 +18,7 @@ mod monitor;
 mod plugin;
 mod python_model;
 mod record;
+mod report;
 mod results;
 mod tasks;
 mod worker;
@@ -56,6 +57,8 @@ mod _taceva {
     use super::python_model::{Given, features};
     #[pymodule_export]
     use super::record::{import_recording, record};
+    #[pymodule_export]
+    use super::report::write_report;
     #[pymodule_export]
     use super::results::{
         comparison, figure_pdf, figures, keeps_samples, not_measured, read_result, score_table,

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use pyo3::prelude::*;
 use serde::Serialize;
-use taceva_report::{CompareRequest, Layout, ScoreTable, Study, Table, compare};
+use taceva_report::{CompareRequest, Figure, Layout, ScoreTable, Study, Table, compare};
 use taceva_results::{EvaluationReport, Interval, Samples, Score, Value};
 
 use crate::errors::value_error;
@@ -59,13 +59,15 @@ pub(crate) struct ReadScore {
     n_invalid: u64,
     reason: Option<String>,
     standing: Option<&'static str>,
+    interval_reason: Option<String>,
 }
 
 impl From<Score> for ReadScore {
     fn from(score: Score) -> ReadScore {
-        let interval = match score.interval {
-            Some(Interval::Ends { ends, method, .. }) => Some((ends[0], ends[1], method)),
-            Some(Interval::Absent(_)) | None => None,
+        let (interval, interval_reason) = match score.interval {
+            Some(Interval::Ends { ends, method, .. }) => (Some((ends[0], ends[1], method)), None),
+            Some(Interval::Absent(reason)) => (None, Some(reason)),
+            None => (None, None),
         };
         ReadScore {
             value: score.value.number(),
@@ -80,6 +82,7 @@ impl From<Score> for ReadScore {
             n: score.n,
             n_invalid: score.n_invalid,
             standing: score.standing.words(),
+            interval_reason,
         }
     }
 }
@@ -107,9 +110,10 @@ pub(crate) fn score_table(texts: Vec<String>, form: &str) -> PyResult<String> {
     let shown = scores.headlines();
     match form {
         "csv" => Ok(scores.every_number().csv()),
-        "tex" => Ok(shown.for_papers("Scores").latex(Layout::Float)),
+        "tex" => Ok(shown.for_papers(&shown.title()).latex(Layout::Float)),
         form => {
             let mut table = shown.for_pages();
+            table.caption = shown.title();
             if let Some(note) = left_out(&scores, &shown) {
                 table.note(note);
             }
@@ -148,10 +152,11 @@ pub(crate) struct Drawn {
     svg: String,
 }
 
-/// All figures with data in `texts` of results files, in the order of reports.
+/// All figures with data in `texts` of results files, in the order of reports. With `metrics`, figures of a comparison of these metrics come first.
 #[pyfunction]
-pub(crate) fn figures(texts: Vec<String>) -> PyResult<Vec<Drawn>> {
-    let figures = taceva_report::figures(&studies(&texts)?).into_iter();
+#[pyo3(signature = (texts, metrics=None))]
+pub(crate) fn figures(texts: Vec<String>, metrics: Option<Vec<String>>) -> PyResult<Vec<Drawn>> {
+    let figures = figures_of(&texts, metrics)?.into_iter();
     let drawn = figures.map(|figure| Drawn {
         svg: figure.svg(),
         name: figure.id,
@@ -162,10 +167,28 @@ pub(crate) fn figures(texts: Vec<String>) -> PyResult<Vec<Drawn>> {
     Ok(drawn.collect())
 }
 
-/// The figure called `name` as a PDF file.
+fn figures_of(texts: &[String], metrics: Option<Vec<String>>) -> PyResult<Vec<Figure>> {
+    let studies = studies(texts)?;
+    let Some(metrics) = metrics else {
+        return Ok(taceva_report::figures(&studies));
+    };
+    let request = CompareRequest {
+        metrics,
+        ..CompareRequest::default()
+    };
+    let request = request.resolved(&studies).map_err(value_error)?;
+    Ok(compare(&studies, &request).figures(&studies))
+}
+
+/// The figure called `name`, among those of [`figures`], as a PDF file.
 #[pyfunction]
-pub(crate) fn figure_pdf(texts: Vec<String>, name: &str) -> PyResult<Vec<u8>> {
-    let figures = taceva_report::figures(&studies(&texts)?);
+#[pyo3(signature = (texts, name, metrics=None))]
+pub(crate) fn figure_pdf(
+    texts: Vec<String>,
+    name: &str,
+    metrics: Option<Vec<String>>,
+) -> PyResult<Vec<u8>> {
+    let figures = figures_of(&texts, metrics)?;
     let figure = figures.iter().find(|figure| figure.id == name);
     let figure = figure.ok_or_else(|| value_error(format_args!("no figure {name:?}")))?;
     Ok(figure.pdf())

@@ -31,6 +31,6 @@ def test_every_block_of_the_documents_runs_as_it_is_pasted(tmp_path: Path, monke
                 exec("import taceva; dataset = taceva.open('demo')", names)
                 continue
         exec(compile(block, "block", "exec"), names)
-    assert (tmp_path / "ridge.json").exists() and (tmp_path / "radar-accuracy.pdf").read_bytes().startswith(b"%PDF")
+    assert (tmp_path / "ridge.json").exists() and (tmp_path / "intervals-mae.pdf").read_bytes().startswith(b"%PDF")
     if skipped:
         pytest.skip(f"without torch {len(skipped)} blocks were not pasted")

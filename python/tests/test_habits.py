@@ -233,6 +233,7 @@ def test_a_function_that_gives_no_number_is_refused_and_what_it_raises_comes_out
     assert (undefined.value, undefined.interval, undefined.reason) == (None, None, "gap returned nan")
     few = taceva.score_function(lambda true, found: 1.0, truth[:20], prediction[:20], points=points[:20])["Fz"]
     assert few.value == 1.0 and few.interval is None
+    assert few.interval_reason and few.interval_reason.endswith("6 are needed")
     with pytest.raises(ValueError, match="draws 5: expected at least 100"):
         taceva.score_function(lambda true, found: 1.0, truth, prediction, draws=5)
     with pytest.raises(ValueError, match="points has 3 rows, truth has 120"):

@@ -207,6 +207,48 @@ def test_a_result_is_a_frame_a_table_and_a_page(tmp_path: Path) -> None:
     assert frame.attrs["source"] == "unknown"
 
 
+def test_print_page_and_latex_state_the_number_of_samples_and_of_clusters_once() -> None:
+    truth, prediction, points = (array[:600] for array in arrays())
+    result = taceva.score(truth, prediction, points=points, name="mine")
+    title = "Scores of mine on 600 samples in 50 clusters by contact point, with 95 "
+    for shown in (str(result), result._repr_html_(), result.to_latex()):
+        assert shown.count(title) >= 1, shown
+    assert str(result).count(" 600 ") == 1
+    alone = taceva.score(truth, prediction, independent=True)
+    assert "Scores of predictions on 600 samples, with 95 % intervals." in str(alone)
+
+
+def test_a_score_without_an_interval_has_the_reason_and_the_table_states_it_once() -> None:
+    truth, prediction, points = (array[:600] for array in arrays())
+    result, pointed = taceva.score(truth, prediction), taceva.score(truth, prediction, points=points)
+    assert {score.interval_reason for score in result.scores()} == {"samples without point_id"}
+    assert {score.interval_reason for score in pointed.scores()} == {None}
+    assert str(result).count("samples without point_id") == 1
+    assert set(result.to_frame()["interval_reason"]) == {"samples without point_id"}
+    comparison = str(taceva.compare(result, result, metrics=["mae"]))
+    assert "has an interval, so no difference is tested: samples without point_id" in " ".join(comparison.split())
+    assert "skill" not in comparison
+
+
+def test_a_report_is_the_page_of_the_command_and_replaces_none_by_itself(tmp_path: Path) -> None:
+    truth, prediction, points = (array[:600] for array in arrays())
+    result = taceva.score(truth, prediction, points=points, name="mine")
+    page = taceva.report(result, tmp_path / "of_result")
+    assert page == tmp_path / "of_result" / "report.html"
+    result.save(tmp_path / "mine.json")
+    result.save_samples(tmp_path / "mine.samples.csv")
+    assert taceva.report(tmp_path / "mine.json", tmp_path / "of_file").read_bytes() == page.read_bytes()
+    done = command("report", tmp_path / "mine.json", "--out", tmp_path / "of_command", "--quiet")
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "of_command" / "report.html").read_bytes() == page.read_bytes()
+    assert (tmp_path / "of_result" / "figures" / "predicted-1.svg").is_file()
+    with pytest.raises(ValueError, match="exists already"):
+        taceva.report(result, tmp_path / "of_result")
+    assert taceva.report(result, tmp_path / "of_result", replace=True) == page
+    with pytest.raises(ValueError, match="no such file or folder"):
+        taceva.report(tmp_path / "nowhere.json", tmp_path / "none")
+
+
 def test_whatever_is_shown_of_samples_that_nobody_measured_says_so(tmp_path: Path) -> None:
     labels = np.random.default_rng(1).uniform(size=(40, 1))
     frames = (200 * labels[:, :, None] + np.arange(8)).astype(np.uint8).repeat(6, axis=1)
@@ -296,6 +338,17 @@ def test_a_comparison_has_a_narrow_table_of_the_main_scores_for_a_paper() -> Non
     assert "near" in comparison.to_latex("main") and r"\toprule" in comparison.to_latex("main")
     with pytest.raises(ValueError, match="table 'wide': expected 'all' or 'main'"):
         comparison.to_latex("wide")
+
+
+def test_the_first_figure_of_a_comparison_has_the_values_of_the_asked_metric_with_intervals(tmp_path: Path) -> None:
+    truth, prediction, points = (array[:600] for array in arrays())
+    results = [taceva.score(truth, truth + scale * (prediction - truth), points=points) for scale in (0.5, 1)]
+    figures = taceva.compare(*results, metrics=["mae"]).figures()
+    assert figures[0].name == "intervals-mae" and "n is 600." in figures[0].caption
+    assert [figure.name for figure in figures].count("intervals-mae") == 1
+    figures[0].save(tmp_path / "mae.pdf")
+    assert (tmp_path / "mae.pdf").read_bytes().startswith(b"%PDF")
+    assert all(not figure.name.startswith("intervals") for figure in results[0].figures())
 
 
 def test_a_score_of_arrays_has_the_name_of_the_caller_in_tables_and_comparisons() -> None:

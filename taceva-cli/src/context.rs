@@ -43,6 +43,18 @@ impl Context {
         }
     }
 
+    /// Context of a command in another program: one thread, because the caller decides on the number of threads, and no messages.
+    pub(crate) fn embedded(plugins: &PluginArgs) -> Context {
+        Context {
+            progress: TerminalProgress::new(true, false),
+            jobs: NonZeroUsize::MIN,
+            verbose: false,
+            quiet: true,
+            plugins: plugins.clone(),
+            invocation: Invocation::new(&[]),
+        }
+    }
+
     /// Number of threads, progress and cache for a stage.
     pub(crate) fn work<'a>(&'a self, cache: Option<&'a Cache>) -> Work<'a> {
         Work {

@@ -18,6 +18,7 @@ mod output;
 mod process_limits;
 mod progress;
 mod report;
+mod result_page;
 mod stderr;
 
 // Linked for its drivers: a crate that is only named in Cargo.toml is not linked.
@@ -44,6 +45,7 @@ use invocation::Invocation;
 
 pub use bundle_verification::{BundleVerification, verify_bundle};
 pub use metrology::{Metrology, metrology};
+pub use result_page::write_report;
 
 /// Acts as the child process of another `taceva` and exits, if this process was started as such; otherwise returns. Without this call at the start
 /// of `main`, no child process can be started. Plugins in libraries are then rejected unless an interpreter was named for them

@@ -46,7 +46,8 @@ pub use stats::{
     ClusterSum, ClusterSums, Clusters, ComparisonError, Difference, DifferenceLine, DifferenceTest,
     Estimate, HASHED_CLUSTERS, IntervalMethod, LeftOut, NAMED_CLUSTERS, NormalSample, OneWay,
     OneWaySums, PoissonBootstrap, Proportional, Question, Repeats, Side, Sides, SignFlip,
-    StatedInterval, TrainingSpread, Verdict, by_intervals, decide, holm, paired_over_trainings,
+    StatedInterval, TrainingSpread, Verdict, by_intervals, decide, holm, p_value, p_words,
+    paired_over_trainings,
 };
 // Types in these signatures, so that a caller needs no other crate.
 pub use taceva_core::{

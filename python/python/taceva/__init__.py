@@ -23,6 +23,7 @@ from taceva._metrology import Budget, CalibrationCurve, GaugeStudy, budget, curv
 from taceva._monitor import Alarm, Monitor
 from taceva._onnx import OnnxModel, onnx
 from taceva._record import from_arrays, import_recording
+from taceva._report import report
 from taceva._result import Interval, Result, Score, load
 from taceva._taceva import DatasetError, ModelError
 from taceva._taceva import version as _version
@@ -64,6 +65,7 @@ __all__ = [
     "open",
     "plugins",
     "progress",
+    "report",
     "score",
     "score_function",
     "score_tables",

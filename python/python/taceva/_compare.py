@@ -40,8 +40,11 @@ class Comparison:
         return self._form(forms[table])
 
     def figures(self) -> list[Figure]:
-        """Return all figures that show the results together, of every metric they have; ``metrics`` of `compare` does not limit them."""
-        return figures_of(self._asked[0])
+        """Return all figures that show the results together.
+
+        First come the values of each of the ``metrics`` of `compare` with intervals. Other figures are of every metric that the results have.
+        """
+        return figures_of(self._asked[0], self._asked[2])
 
     def __str__(self) -> str:
         return self._form("text")

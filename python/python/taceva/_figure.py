@@ -14,9 +14,11 @@ from taceva import _taceva
 class Figure:
     """A figure of one or more results, for notebooks, or saved as SVG or PDF for a paper."""
 
-    def __init__(self, texts: Sequence[str], drawn: dict[str, str]) -> None:
+    def __init__(self, texts: Sequence[str], drawn: dict[str, str], metrics: list[str] | None = None) -> None:
         self._texts = list(texts)
         self._drawn = drawn
+        #: Compared metrics; ``None`` for figures of results that are not compared.
+        self._metrics = metrics
 
     @property
     def name(self) -> str:
@@ -46,7 +48,7 @@ class Figure:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the figure to ``path``, which must not exist and ends in ``.svg`` or ``.pdf``; fonts of a PDF are embedded."""
         target = Path(path)
-        forms = {".svg": lambda: self.svg.encode(), ".pdf": lambda: bytes(_taceva.figure_pdf(self._texts, self.name))}
+        forms = {".svg": lambda: self.svg.encode(), ".pdf": lambda: bytes(_taceva.figure_pdf(self._texts, self.name, self._metrics))}
         if target.suffix not in forms:
             raise ValueError(f"{target}: expected a name that ends in .svg or .pdf")
         content = forms[target.suffix]()
@@ -68,6 +70,6 @@ class Figure:
         )
 
 
-def figures_of(texts: Sequence[str]) -> list[Figure]:
-    """Return all figures for which the results have data, in the order of reports."""
-    return [Figure(texts, drawn) for drawn in _taceva.figures(list(texts))]
+def figures_of(texts: Sequence[str], metrics: list[str] | None = None) -> list[Figure]:
+    """Return all figures for which the results have data, in the order of reports; figures of compared ``metrics`` come first."""
+    return [Figure(texts, drawn, metrics) for drawn in _taceva.figures(list(texts), metrics)]

@@ -103,18 +103,29 @@ def score_function(
         unit_of = unit.get(channel) if isinstance(unit, Mapping) else unit
         value = _value(function, own[0], own[1], called) if rows else None
         is_finite = value is not None and np.isfinite(value)
+        interval = _interval(function, own, value, clusters, called, draws, seed) if value is not None and is_finite and draws else None
         scores[channel] = Score(
             metric=called,
             channel=channel,
             value=value if is_finite else None,
             unit=unit_of or _taceva.unit_of(channel) or "1",
-            interval=_interval(function, own, value, clusters, called, draws, seed) if value is not None and is_finite and draws else None,
+            interval=interval,
             n=rows,
             n_invalid=0,
             reason=None if is_finite else f"{called} returned {value}" if rows else "no samples",
             standing=None,
+            interval_reason=_why_no_interval(len(clusters), draws) if is_finite and interval is None else None,
         )
     return scores
+
+
+def _why_no_interval(points: int, draws: int) -> str:
+    """Return the reason why a defined score has no interval."""
+    if not draws:
+        return "draws=0"
+    if points < _LEAST_POINTS:
+        return f"{counted(points, 'contact point')}, {_LEAST_POINTS} are needed"
+    return "the function returned no finite number for some drawn points"
 
 
 def _table(array: Any, name: str, width: int) -> Numbers:

@@ -28,7 +28,7 @@ class Interval:
 class Score:
     """A score of one metric and channel. If it is undefined, ``value`` is ``None`` and ``reason`` states why.
 
-    ``reason`` is not about the interval: without an interval, `Result.to_dict` has the reason at ``["metrics"][metric][channel]["ci95"]``.
+    Without an interval, ``interval_reason`` states why.
 
     A score acts as a number in its unit: ``float``, ``round``, ``format``, ``<``, ``<=``, ``>`` and ``>=`` accept it, and raise ``ValueError``
     if it is undefined. ``==`` compares whole scores: compare ``value`` with a number.
@@ -45,7 +45,7 @@ class Score:
     value: float | None
     #: ``1`` for a score without a unit, such as R².
     unit: str
-    #: ``None`` without an interval, as for samples without contact points.
+    #: ``None`` without an interval, as for samples without contact points; ``interval_reason`` states why.
     interval: Interval | None
     #: Number of samples that were scored.
     n: int
@@ -55,6 +55,8 @@ class Score:
     reason: str | None
     #: Reason why the score is excluded from verdicts, if it is, as in files: ``no skill``, ``skill unknown``, ``bounded``, …
     standing: str | None
+    #: Reason why a defined score has no interval; ``None`` with an interval.
+    interval_reason: str | None = None
 
     def __float__(self) -> float:
         if self.value is None:
@@ -200,7 +202,7 @@ class Result(Mapping[tuple[str, str], Score]):
     def to_latex(self) -> str:
         """Return a LaTeX table for a paper; it needs ``booktabs``.
 
-        The table has 95 % intervals but not the number of samples, which `Comparison.to_latex` with ``"main"`` states.
+        The caption states the number of samples, and of contact points if all intervals have the same number.
         """
         said = "".join(f"% {line}\n" for line in self._said())
         return said + _taceva.score_table([self._text], "tex")
@@ -208,7 +210,7 @@ class Result(Mapping[tuple[str, str], Score]):
     def figures(self) -> list[Figure]:
         """Return all figures for which the scores have data.
 
-        ``taceva report`` also draws the samples: save them by `save_samples` beside the result.
+        `report` also draws the samples, on a page.
         """
         return figures_of([self._text])
 

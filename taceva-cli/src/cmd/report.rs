@@ -15,6 +15,23 @@ use crate::{exit, output, report};
 
 pub(crate) fn run(args: &ReportArgs, context: &Context) -> anyhow::Result<u8> {
     let table = super::table_scores(&args.table, args.format)?;
+    let Written { page, reports } = written(args, context)?;
+    output::write_as(args.format, None, |out| {
+        report::profiles(&reports, args.format, table, out)
+    })?;
+    context.say(format_args!("look at    {}", shown(&page)));
+    Ok(exit::DONE)
+}
+
+/// Page of a report, and the results on it.
+pub(crate) struct Written {
+    /// Path of the page.
+    pub(crate) page: PathBuf,
+    reports: Vec<EvaluationReport>,
+}
+
+/// Writes the page, the figures and the tables of a result.
+pub(crate) fn written(args: &ReportArgs, context: &Context) -> anyhow::Result<Written> {
     if !args.result.exists() {
         return Err(Usage::error(format!(
             "{}: no such file or folder; expected the folder of a run, or the JSON of run, evaluate or score",
@@ -48,11 +65,7 @@ pub(crate) fn run(args: &ReportArgs, context: &Context) -> anyhow::Result<u8> {
     if let Some(Like::Taceva) = args.like {
         drawn.write_like_taceva(&folder, &args.figure.style(), context)?;
     }
-    output::write_as(args.format, None, |out| {
-        report::profiles(&reports, args.format, table, out)
-    })?;
-    context.say(format_args!("look at    {}", shown(&page)));
-    Ok(exit::DONE)
+    Ok(Written { page, reports })
 }
 
 /// Limits the scores of `reports` to the named channels and planes.

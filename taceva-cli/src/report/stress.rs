@@ -4,6 +4,7 @@ mod numbers;
 mod remarks;
 
 use taceva_core::counted;
+use taceva_metrics::p_words;
 use taceva_report::{Cell, Column, FormattedValue, Table, main_channels};
 use taceva_stress::{By, Estimate, FaultReport, NEVER, StressReport, Undefined};
 
@@ -213,7 +214,7 @@ fn verdicts(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> St
             let value = of.value.filter(|value| of.is_shown && (*value < 0.0) == is_less)?;
             let unit = report.units.get(name)?;
             let size = FormattedValue::number(value, of.interval).phrase(&format!(" {unit}"));
-            Some(format!("{size}, p = {}", short(of.p?)))
+            Some(format!("{size}, {}", p_words(of.p?)))
         });
         match shown.is_empty() {
             true => shown,

@@ -1,5 +1,7 @@
 //! Names of studies, and lists of names as text.
 
+use std::collections::BTreeSet;
+
 use crate::figure::short;
 use crate::results::Study;
 
@@ -30,6 +32,27 @@ pub fn names(studies: &[Study]) -> Vec<String> {
     studies.iter().enumerate().map(name).collect()
 }
 
+/// Noun for what differs between the studies: `sensor`, `model` for models of one sensor, otherwise `result`.
+pub(crate) fn noun(studies: &[Study]) -> &'static str {
+    let sensors: BTreeSet<&str> = studies.iter().map(|study| study.sensor.as_str()).collect();
+    // Arrays have a name, but do not state if it is of a sensor or of a model.
+    if are_distinct(studies, |study| {
+        (study.source != UNKNOWN).then_some(study.sensor.as_str())
+    }) {
+        "sensor"
+    } else if sensors.len() == 1 && are_distinct(studies, |study| study.made.model.as_deref()) {
+        "model"
+    } else {
+        "result"
+    }
+}
+
+/// True if each study has a name by `of`, and no two studies share one.
+fn are_distinct(studies: &[Study], of: fn(&Study) -> Option<&str>) -> bool {
+    let named: Option<BTreeSet<&str>> = studies.iter().map(of).collect();
+    named.is_some_and(|named| named.len() == studies.len())
+}
+
 /// Names of all studies as text: `A, B and C`.
 pub(crate) fn all(studies: &[Study]) -> String {
     listed(&names(studies))
@@ -46,8 +69,8 @@ pub(crate) fn listed(names: &[String]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::names;
-    use crate::results::Study;
+    use super::{names, noun};
+    use crate::results::{Made, Study};
 
     fn study(sensor: &str, model: Option<&str>) -> Study {
         let model = model.map(|name| ("model".to_owned(), format!("name {name}, settings ")));
@@ -68,5 +91,29 @@ mod tests {
             study("DIGIT", None),
         ];
         assert_eq!(names(&several), ["result 1 (ridge)", "result 2", "DIGIT"]);
+    }
+
+    #[test]
+    fn the_noun_of_several_studies_is_what_differs_between_them() {
+        let of = |sensor: &str, model: Option<&str>, source: &str| Study {
+            source: source.to_owned(),
+            made: Made {
+                model: model.map(str::to_owned),
+                ..Made::default()
+            },
+            ..study(sensor, model)
+        };
+        let recorded = |sensor, model| of(sensor, Some(model), "recorded");
+        let sensors = [recorded("DIGIT", "ridge"), recorded("TacTip", "knn")];
+        assert_eq!(noun(&sensors), "sensor");
+        let models = [recorded("DIGIT", "ridge"), recorded("DIGIT", "knn")];
+        assert_eq!(noun(&models), "model");
+        let repeated = [recorded("DIGIT", "ridge"), recorded("DIGIT", "ridge")];
+        assert_eq!(noun(&repeated), "result");
+        let arrays = ["near", "far"].map(|name| of(name, None, "unknown"));
+        assert_eq!(noun(&arrays), "result");
+        let [digit, tactip] = sensors;
+        let [_, other_model] = models;
+        assert_eq!(noun(&[digit, tactip, other_model]), "result");
     }
 }

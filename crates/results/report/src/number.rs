@@ -187,19 +187,6 @@ pub(crate) fn significant(number: f64) -> String {
     }
 }
 
-/// Upper bound of a probability: three digits, rounded up, at least 0.0001.
-pub(crate) fn at_most(probability: f64) -> String {
-    let decimals = (0..8).find(|&decimals| probability * 10_f64.powi(decimals) >= 100.0);
-    let steps = 10_f64.powi(decimals.unwrap_or(8));
-    let scaled = probability * steps;
-    let near = scaled.round();
-    let whole = match (near - scaled).abs() <= scaled * 1e-9 {
-        true => near,
-        false => scaled.ceil(),
-    };
-    significant(whole / steps)
-}
-
 /// Replaces hyphens by the typographic minus.
 pub(crate) fn minus(text: &str) -> String {
     text.replace('-', "−")
@@ -354,10 +341,6 @@ mod tests {
         assert_eq!(
             [0.9961, 0.9997, 1.0, 9.96].map(numeral),
             ["0.996", "1.000", "1", "9.96"]
-        );
-        assert_eq!(
-            [0.004_690_6, 0.014_432, 0.05].map(at_most),
-            ["0.0047", "0.0145", "0.05"]
         );
         assert_eq!(significant(3e-20), "3.00e-20");
     }

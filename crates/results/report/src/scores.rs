@@ -32,6 +32,8 @@ pub struct ScoreTable {
     pub answers: Vec<Answer>,
     /// Sentence on channels whose labels have different spreads; `None` without such channels.
     pub(crate) spread: Option<String>,
+    /// Noun for what differs between the studies: `sensor`, `model` or `result`.
+    pub(crate) noun: &'static str,
     about: Vec<caption::About>,
 }
 
@@ -120,6 +122,7 @@ impl ScoreTable {
             names: crate::names::names(studies),
             sources: studies.iter().map(|study| study.source.clone()).collect(),
             spread: spread(studies, &rows),
+            noun: crate::names::noun(studies),
             about: studies.iter().map(caption::About::of).collect(),
             rows,
             answers,
@@ -143,6 +146,7 @@ impl ScoreTable {
             rows: self.rows.iter().filter(is_kept).cloned().collect(),
             answers: self.answers.clone(),
             spread: self.spread.clone(),
+            noun: self.noun,
             about: self.about.clone(),
         }
     }

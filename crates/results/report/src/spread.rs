@@ -3,6 +3,7 @@
 use taceva_core::Unit;
 use taceva_metrics::plane_axes;
 
+use crate::names::noun;
 use crate::number::{numeral, spaced};
 use crate::results::Study;
 
@@ -86,7 +87,8 @@ pub(crate) fn note(studies: &[Study], names: &[String], scores: &[(&str, &str)])
     let differing: Vec<String> = differing.collect();
     (!differing.is_empty()).then(|| {
         format!(
-            "The spread of the labels differs more than twofold between the sensors ({}): part of a score difference may come from the labels.",
+            "The spread of the labels differs more than twofold between the {}s ({}): part of a score difference may come from the labels.",
+            noun(studies),
             differing.join("; ")
         )
     })

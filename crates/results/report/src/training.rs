@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use taceva_core::counted;
 use taceva_metrics::catalogue;
 
-use crate::names::{listed, names};
+use crate::names::{listed, names, noun};
 use crate::results::Study;
 
 /// Least number of contact points for a verdict on sensors. Below this number, twice as many points halve the errors, so a comparison reflects the
@@ -88,10 +88,11 @@ pub(crate) fn unequal_models(studies: &[Study]) -> Option<String> {
             }
         });
     let each: Vec<String> = each.collect();
-    Some(format!(
-        "Different models: {}. Differences between sensors include those between their models.",
-        listed(&each)
-    ))
+    let models = format!("Different models: {}.", listed(&each));
+    Some(match noun(studies) {
+        "model" => models,
+        noun => format!("{models} Differences between {noun}s include those between their models."),
+    })
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::fmt;
 use taceva_core::Unit;
 
 use super::Verdict;
+use crate::stats::p_value::p_words;
 use crate::stats::sides::{Side, Sides};
 
 impl Verdict {
@@ -18,7 +19,7 @@ impl Verdict {
                 unit,
                 better,
             } => {
-                let p = p_value(difference.adjusted_p);
+                let p = p_words(difference.adjusted_p);
                 let level = percent(difference.confidence);
                 let [low, high] = difference.interval;
                 let decimals = decimals(&[low, high], difference.value);
@@ -158,14 +159,6 @@ fn end(value: f64, decimals: usize) -> String {
     match number(value, decimals) {
         text if value.abs() > 1e-12 && is_zero(&text) => format!("{value:.0e}").replace('-', "−"),
         text => text,
-    }
-}
-
-fn p_value(p: f64) -> String {
-    if p < 0.001 {
-        "p < 0.001".to_owned()
-    } else {
-        format!("p = {p:.3}")
     }
 }
 

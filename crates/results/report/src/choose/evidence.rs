@@ -2,13 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use taceva_metrics::{Better, Sides};
+use taceva_metrics::{Better, Sides, p_words};
 
 use super::{Choice, Dropped, Need, Property, choose_together};
 use crate::catalogue::Sensor;
 use crate::compare::{Answer, CompareRequest, barred_by_split, compare};
 use crate::names::{listed, names};
-use crate::number::significant;
 use crate::results::Study;
 use crate::spread;
 
@@ -183,12 +182,12 @@ impl Choice {
         sentences
     }
 
-    /// Sentence on a significant difference: `a is shown to be better than b in MAE of Fz (p by Holm 0.001)`.
+    /// Sentence on a significant difference: `a is shown to be better than b in MAE of Fz (p = 0.001 by Holm)`.
     fn shown(&self, better: &str, than: &str) -> Option<String> {
         let of_both = self.evidence.iter().flatten();
         let of_both = of_both.filter(|of| of.better == better && of.than == than);
         let numbers: Vec<String> = of_both
-            .map(|of| format!("{} (p by Holm {})", of.property, significant(of.p)))
+            .map(|of| format!("{} ({} by Holm)", of.property, p_words(of.p)))
             .collect();
         (!numbers.is_empty()).then(|| {
             format!(

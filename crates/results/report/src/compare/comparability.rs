@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use taceva_metrics::Sides;
+use taceva_metrics::{Sides, Standing};
 
 use crate::names::listed;
 use crate::results::Study;
-use taceva_results::Score;
+use taceva_results::{Interval, Score};
 
 /// Reason why verdicts exclude one of two scores, such as `ViTacTip: not better than predicting the mean: …`; `None` if both take part.
 pub(super) fn barred(scores: Sides<&Score>, names: Sides<&str>) -> Option<String> {
@@ -14,11 +14,24 @@ pub(super) fn barred(scores: Sides<&Score>, names: Sides<&str>) -> Option<String
     let reasons: Vec<String> = sides
         .into_iter()
         .filter_map(|(score, name)| match score.standing.reason() {
-            Some(reason) => Some(format!("{name}: {reason}")),
+            Some(reason) => Some(match &score.interval {
+                Some(Interval::Absent(why))
+                    if score.standing == Standing::NoInterval && is_of_clusters(why) =>
+                {
+                    let phrase = score.standing.phrase().unwrap_or(reason);
+                    format!("{name}: {phrase}: {why}")
+                }
+                _ => format!("{name}: {reason}"),
+            }),
             None => of_one_pair(score).map(|reason| format!("{reason} ({name})")),
         })
         .collect();
     (!reasons.is_empty()).then(|| reasons.join("; "))
+}
+
+/// True if an interval is absent for `reason` because of the contact points or groups, and not because of the metric.
+pub(super) fn is_of_clusters(reason: &str) -> bool {
+    reason.contains("cluster") || reason.contains("point_id")
 }
 
 /// Reason why numbers of a catalogue give no verdict: they have different samples or definitions.
@@ -46,7 +59,7 @@ fn of_one_pair(score: &Score) -> Option<&'static str> {
 }
 
 /// Note that the skill of the studies comes from different samples; `None` if the samples are equal.
-pub(super) fn notes(studies: &[Study], names: &[String]) -> Option<String> {
+pub(super) fn skill_note(studies: &[Study], names: &[String]) -> Option<String> {
     let shown: Vec<(&str, String)> = studies
         .iter()
         .zip(names)

@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use taceva_metrics::catalogue;
-use taceva_results::not_measured;
+use taceva_metrics::{Better, catalogue};
+use taceva_results::{Interval, not_measured};
 
 use super::{Answer, CompareRequest, comparability};
 use crate::names::listed;
@@ -19,15 +19,66 @@ pub(super) fn notes(
     request: &CompareRequest,
 ) -> Vec<String> {
     let demonstration = demonstration(studies);
+    let is_asked = |metric: &str| {
+        request.metrics.is_empty() || request.metrics.iter().any(|asked| asked == metric)
+    };
+    let skill = is_asked("skill").then(|| comparability::skill_note(studies, names));
     demonstration
         .map(|words| words.trim_end_matches('.').to_owned())
         .into_iter()
-        .chain(comparability::notes(studies, names))
+        .chain(skill.flatten())
         .chain(unmeasured(studies))
+        .chain(without_intervals(studies, names, answers, is_asked))
         .chain(trainings(names, answers))
         .chain(unpaired)
         .chain(unknown(studies, request))
         .collect()
+}
+
+/// Notes on measured studies without a tested difference. Their scores of the metrics that `is_asked` selects all lack intervals for one reason.
+fn without_intervals(
+    studies: &[Study],
+    names: &[String],
+    answers: &[Answer],
+    is_asked: impl Fn(&str) -> bool,
+) -> Vec<String> {
+    let mut by_reason: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    for (at, (study, name)) in studies.iter().zip(names).enumerate() {
+        // Exact predictions have no interval, but are compared sample by sample.
+        let is_tested = answers.iter().any(|answer| {
+            answer.difference.is_some() && [answer.sides.a, answer.sides.b].contains(&at)
+        });
+        if is_tested || study.source == "published" {
+            continue;
+        }
+        let scores = study.scores.iter().filter(|score| {
+            score.value.number().is_some()
+                && score.better() != Better::Described
+                && is_asked(&score.metric)
+        });
+        let reasons: BTreeSet<Option<&str>> = scores
+            .map(|score| match &score.interval {
+                Some(Interval::Absent(reason)) => Some(reason.as_str()),
+                _ => None,
+            })
+            .collect();
+        if let (1, Some(Some(reason))) = (reasons.len(), reasons.first()) {
+            by_reason.entry(*reason).or_default().push(name.clone());
+        }
+    }
+    let notes = by_reason.into_iter().map(|(reason, names)| {
+        let remedy = match comparability::is_of_clusters(reason) {
+            true => {
+                "; an interval needs at least five contact points or groups, or samples that are declared independent"
+            }
+            false => "",
+        };
+        format!(
+            "no score of {} has an interval, so no difference is tested: {reason}{remedy}",
+            listed(&names)
+        )
+    });
+    notes.collect()
 }
 
 /// Note that samples are simulated, synthetic or of unknown origin; `None` if all are measured.

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 
 use taceva_core::{by_count, counted};
-use taceva_metrics::{Better, Standing, Verdict};
+use taceva_metrics::{Better, Standing, Verdict, p_words};
 use taceva_results::full_name;
 
 use super::{Answer, Comparison, Remarks};
 use crate::names::listed;
-use crate::number::{at_most, numeral, spaced};
+use crate::number::{numeral, spaced};
 use crate::tie::best;
 use crate::training::NO_VERDICT;
 use crate::wrap::wrapped;
@@ -218,10 +218,8 @@ impl Comparison {
                     *rival != at && !losers.contains(rival) && !equal.contains(rival)
                 });
                 let open: Vec<String> = open.map(|(rival, _)| self.names[*rival].clone()).collect();
-                let p_values = won.iter().filter_map(|answer| answer.difference.as_ref());
-                let p = p_values.fold(0.0_f64, |p, difference| p.max(difference.adjusted_p));
                 let start = format!("{}, {}{unit}", self.names[at], numeral(value));
-                let p = p_words(p);
+                let p = largest_p(&won);
                 let alike = self.equivalent(&equals, &equal);
                 match (losers.len(), open.len()) {
                     // A row has one decision, so an equivalence is not reported as undecided too.
@@ -377,11 +375,13 @@ fn untested(
     }
 }
 
-/// Bound of the p values of significant differences, as text. `p` is the largest p value.
-fn p_words(p: f64) -> String {
-    if p < 0.001 {
-        "p < 0.001".to_owned()
-    } else {
-        format!("p ≤ {}", at_most(p))
+/// Largest p value of the significant differences `won`, as text: `p = 0.012`, or `largest p = 0.012` for several differences.
+fn largest_p(won: &[&Answer]) -> String {
+    let p_values = won.iter().filter_map(|answer| answer.difference.as_ref());
+    let largest = p_values.fold(0.0_f64, |p, difference| p.max(difference.adjusted_p));
+    let words = p_words(largest);
+    match won.len() > 1 && words.contains('=') {
+        true => format!("largest {words}"),
+        false => words,
     }
 }

@@ -1,13 +1,13 @@
 //! Comparisons as table rows, text and JSON.
 
 use serde_json::{Value, json};
-use taceva_metrics::{Difference, DifferenceTest};
+use taceva_metrics::{Difference, DifferenceTest, p_words};
 
 use super::overview::OVERVIEW_WIDTH;
 use super::{Answer, Comparison, Decision};
 use crate::escape::{markdown, terminal};
 use crate::number::{fixed, numeral, significant, spaced};
-use crate::table::{Column, Table};
+use crate::table::{Cell, Column, Table};
 use crate::wrap::wrapped;
 
 /// Indent of answers below the name of the score, in characters.
@@ -65,14 +65,14 @@ impl Comparison {
         notes
     }
 
-    fn row(&self, answer: &Answer) -> Vec<String> {
+    fn row(&self, answer: &Answer) -> Vec<Cell> {
         let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), numeral);
         let apart = answer.scores.a.zip(answer.scores.b).map(|(a, b)| a - b);
         let of_difference = |words: &dyn Fn(&Difference) -> String| {
             let difference = answer.difference.as_ref();
             difference.map_or_else(|| "–".to_owned(), words)
         };
-        vec![
+        let of_pair = [
             answer.compared(),
             answer.channel.clone(),
             self.names[answer.sides.a].clone(),
@@ -85,11 +85,14 @@ impl Comparison {
                 format!("{low} … {high}")
             }),
             of_difference(&|difference| level(difference.confidence)),
-            of_difference(&|difference| significant(difference.p)),
-            of_difference(&|difference| significant(difference.adjusted_p)),
-            answer.unit.to_string(),
-            answer.words(&self.names),
-        ]
+        ];
+        let difference = answer.difference.as_ref();
+        let alone = difference.map(|difference| difference.p);
+        let adjusted = difference.map(|difference| difference.adjusted_p);
+        let answered = [answer.unit.to_string(), answer.words(&self.names)];
+        let cells = of_pair.into_iter().map(Cell::from);
+        let cells = cells.chain([alone, adjusted].map(Cell::p_value));
+        cells.chain(answered.map(Cell::from)).collect()
     }
 
     /// All questions and answers for a terminal, score by score, in lines of at most 100 characters.
@@ -144,7 +147,7 @@ impl Comparison {
         out
     }
 
-    /// Values and verdict of a pair on one line: `GelSight 0.041, TacTip 0.053: GelSight better by 0.012 N (99 % 0.004…0.020, p = 0.004); p 0.001 alone, 0.004 by Holm`.
+    /// Values and verdict of a pair on one line: `GelSight 0.041, TacTip 0.053: GelSight better by 0.012 N (99 % 0.004…0.020, p = 0.004); p = 0.001 alone, p = 0.004 by Holm`.
     fn line(&self, answer: &Answer) -> String {
         let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), numeral);
         let [a, b] = [answer.sides.a, answer.sides.b].map(|at| self.names[at].as_str());
@@ -152,8 +155,8 @@ impl Comparison {
             .difference
             .as_ref()
             .map_or_else(String::new, |difference| {
-                let [alone, adjusted] = [difference.p, difference.adjusted_p].map(significant);
-                format!("; p {alone} alone, {adjusted} by Holm")
+                let [alone, adjusted] = [difference.p, difference.adjusted_p].map(p_words);
+                format!("; {alone} alone, {adjusted} by Holm")
             });
         format!(
             "{a} {}, {b} {}: {}{p}",

@@ -67,7 +67,7 @@ impl Tie {
             _ if others.is_empty() => String::new(),
             [first, rest @ ..] if rest.iter().all(|other| other == first) => match first.is_empty()
             {
-                true => "; each is shown to be better than every other sensor".to_owned(),
+                true => "; each is shown to be better than all others".to_owned(),
                 false => format!("; {who} is shown to be better than {}", named(first)),
             },
             _ => {

@@ -43,7 +43,8 @@ pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
         id: "labels".to_owned(),
         title: "Label distributions".to_owned(),
         caption: format!(
-            "Labels of the presses for training and test: share in each of {BINS} bins, from the least to the greatest label of all sensors shown."
+            "Labels of the presses for training and test: share in each of {BINS} bins, from the least to the greatest label of all {}s shown.",
+            crate::names::noun(studies)
         ),
         description: format!(
             "Histograms of the true {} of {}.",

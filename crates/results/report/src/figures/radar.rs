@@ -1,11 +1,10 @@
 //! Radar charts of several sensors. A radius is the ratio to the best value of the axis; missing values leave gaps.
 
-use std::f64::consts::TAU;
-
 use taceva_metrics::{Better, Standing};
 
-use crate::figure::{Anchor, Canvas, Figure, Ink, Label, Points, SERIES, Stroke, short};
-use crate::number::numeral;
+use super::radar_web::{Rim, WIDTH, outline, web};
+use crate::figure::{Canvas, Figure};
+use crate::names::{listed, noun};
 use crate::results::{PUBLISHED, Study};
 use taceva_results::Score;
 
@@ -69,24 +68,18 @@ const ROBUSTNESS: [Axis; 7] = [
     },
 ];
 
-/// Name and better direction of an axis, printed at the rim.
-pub(super) struct Rim<'a> {
-    pub(super) name: &'a str,
-    pub(super) better: Better,
-}
-
-/// Width of a radar chart that fits a phone, with axis names in two lines.
-pub(super) const WIDTH: f64 = 440.0;
-const RADIUS: f64 = 130.0;
+/// Least number of axes of a radar. Fewer axes enclose no area.
+const FEWEST_AXES: usize = 3;
 
 /// Radar charts of accuracy, sensor and robustness; empty for a single study.
 pub(super) fn draw(studies: &[Study]) -> Vec<Option<Figure>> {
     if studies.len() < 2 {
         return Vec::new();
     }
+    let title = format!("The {}s at a glance", noun(studies));
     vec![
         one(studies, &ACCURACY, "radar-accuracy", "Accuracy at a glance"),
-        one(studies, &SENSOR, "radar-sensor", "The sensors at a glance"),
+        one(studies, &SENSOR, "radar-sensor", &title),
         one(
             studies,
             &ROBUSTNESS,
@@ -96,10 +89,16 @@ pub(super) fn draw(studies: &[Study]) -> Vec<Option<Figure>> {
     ]
 }
 
+/// Radar of the axes on which a study has a value; `None` for fewer than three such axes, or if verdicts exclude all values.
 fn one(studies: &[Study], axes: &[Axis], id: &str, title: &str) -> Option<Figure> {
     let names = crate::names::names(studies);
     let deciding: Vec<Study> = studies.iter().map(Study::deciding).collect();
     let studies = deciding.as_slice();
+    let (axes, empty): (Vec<&Axis>, Vec<&Axis>) =
+        axes.iter().partition(|axis| axis.has_value(studies));
+    if axes.len() < FEWEST_AXES {
+        return None;
+    }
     let shares: Vec<Vec<Option<(f64, f64)>>> =
         axes.iter().map(|axis| axis.shares(studies)).collect();
     if shares.iter().all(|axis| axis.iter().all(Option::is_none)) {
@@ -154,9 +153,11 @@ fn one(studies: &[Study], axes: &[Axis], id: &str, title: &str) -> Option<Figure
         id: id.to_owned(),
         title: title.to_owned(),
         caption: format!(
-            "Each axis shows a share of the best sensor shown: value / best if more is better (↑), best / value if less is better (↓). The rim is the best value, even if no test shows a difference.{gaps}{barred}{}{}",
-            without_value(studies, axes),
-            unproven(studies, axes)
+            "Each axis shows a share of the best {} shown: value / best if more is better (↑), best / value if less is better (↓). The rim is the best value, even if no test shows a difference.{}{gaps}{barred}{}{}",
+            noun(studies),
+            left_out(&empty),
+            without_value(studies, &axes),
+            unproven(studies, &axes)
         ),
         description: format!(
             "A radar of {} for {}.",
@@ -164,7 +165,7 @@ fn one(studies: &[Study], axes: &[Axis], id: &str, title: &str) -> Option<Figure
                 .map(|axis| axis.name)
                 .collect::<Vec<_>>()
                 .join(", "),
-            crate::names::listed(&legend.into_iter().map(|(_, name)| name).collect::<Vec<_>>())
+            listed(&legend.into_iter().map(|(_, name)| name).collect::<Vec<_>>())
         ),
         canvas,
     })
@@ -177,8 +178,20 @@ struct Barred {
     reason: &'static str,
 }
 
+/// Sentence on the `empty` axes, on which no study has a value; empty if there are none.
+fn left_out(empty: &[&Axis]) -> String {
+    let names: Vec<String> = empty.iter().map(|axis| axis.name.to_owned()).collect();
+    match names.is_empty() {
+        true => String::new(),
+        false => format!(
+            " Axes left out, because no result has a value: {}.",
+            listed(&names)
+        ),
+    }
+}
+
 /// Sentence with the number of studies without a value on any axis; empty if there are none.
-fn without_value(studies: &[Study], axes: &[Axis]) -> String {
+fn without_value(studies: &[Study], axes: &[&Axis]) -> String {
     let has_none = |study: &&Study| {
         let mut scores = axes
             .iter()
@@ -193,7 +206,7 @@ fn without_value(studies: &[Study], axes: &[Axis]) -> String {
 }
 
 /// Caption remarks on published values and unknown skill.
-fn unproven(studies: &[Study], axes: &[Axis]) -> String {
+fn unproven(studies: &[Study], axes: &[&Axis]) -> String {
     let drawn = |study| axes.iter().filter_map(move |axis| axis.drawn(study));
     let any = |of: fn(&Score) -> bool| studies.iter().flat_map(drawn).any(of);
     let mut out = String::new();
@@ -231,6 +244,22 @@ pub(super) fn shares(values: &[Option<f64>], better: Better) -> Vec<Option<(f64,
 }
 
 impl Axis {
+    /// Value of `score` on this axis; `None` if the score or its variant has no number.
+    fn value(&self, score: &Score) -> Option<f64> {
+        match self.variant {
+            "" => score.value.number(),
+            variant => score.variant(variant)?.value.number(),
+        }
+    }
+
+    /// True if a study has a value on this axis, even if verdicts exclude it.
+    fn has_value(&self, studies: &[Study]) -> bool {
+        let mut scores = studies
+            .iter()
+            .filter_map(|study| study.score(self.metric, self.channel));
+        scores.any(|score| self.value(score).is_some())
+    }
+
     /// Score of `study` for this axis.
     fn drawn<'a>(&self, study: &'a Study) -> Option<&'a Score> {
         let score = study.score(self.metric, self.channel)?;
@@ -270,101 +299,16 @@ impl Axis {
 
     /// Ratio to the best value, and value, of each study.
     fn shares(&self, studies: &[Study]) -> Vec<Option<(f64, f64)>> {
-        let value = |score: &Score| {
-            if self.variant.is_empty() {
-                score.value.number()
-            } else {
-                score.variant(self.variant)?.value.number()
-            }
-        };
         let values: Vec<Option<f64>> = studies
             .iter()
             .map(|study| {
                 let found = study.score(self.metric, self.channel);
                 let found = found.filter(|score| self.without_place(score).is_none());
-                found.and_then(value)
+                found.and_then(|score| self.value(score))
             })
             .collect();
         shares(&values, self.better)
     }
-}
-
-fn place(axis: usize, count: usize, share: f64, [x, y]: [f64; 2]) -> [f64; 2] {
-    let angle = TAU * axis as f64 / count as f64 - TAU / 4.0;
-    [
-        x + RADIUS * share * angle.cos(),
-        y + RADIUS * share * angle.sin(),
-    ]
-}
-
-pub(super) fn web(axes: &[Rim<'_>], centre: [f64; 2], canvas: &mut Canvas) {
-    let count = axes.len();
-    for ring in [0.25, 0.5, 0.75, 1.0] {
-        let points = (0..=count).map(|axis| place(axis % count, count, ring, centre));
-        canvas.path(points.collect(), Stroke::thin(Ink::Grid));
-    }
-    for (position, Rim { name, better }) in axes.iter().enumerate() {
-        let end = place(position, count, 1.0, centre);
-        canvas.line(centre, end, Stroke::thin(Ink::Grid));
-        let [x, y] = place(position, count, 1.09, centre);
-        let anchor = match x - centre[0] {
-            off if off > 10.0 => Anchor::Start,
-            off if off < -10.0 => Anchor::End,
-            _ => Anchor::Middle,
-        };
-        let arrow = match better {
-            Better::Higher => "↑",
-            _ => "↓",
-        };
-        let name = format!("{name} {arrow}");
-        let (first, second) = name.split_once(' ').unwrap_or((&name, ""));
-        // Names are above the upper half and below the lower half, clear of the web.
-        let aside = (y - centre[1]) / RADIUS * 8.0;
-        for (line, down) in [(first, -2.0), (second, 11.0)] {
-            let mut label = Label::new([x, y + down + aside], line, anchor);
-            label.ink = Ink::Text;
-            canvas.label(label);
-        }
-    }
-}
-
-pub(super) fn outline(
-    shares: &[Option<(f64, f64)>],
-    axes: &[Rim<'_>],
-    centre: [f64; 2],
-    at: usize,
-    name: &str,
-    canvas: &mut Canvas,
-) {
-    let count = shares.len();
-    let corner = |axis: usize| {
-        shares[axis % count].map(|(share, _)| place(axis % count, count, share, centre))
-    };
-    let closed: Option<Vec<[f64; 2]>> = (0..=count).map(corner).collect();
-    if let Some(points) = closed {
-        canvas.area(points.clone(), Ink::Series(at), 0.06);
-        canvas.path(points, Stroke::series(at % SERIES));
-    } else {
-        for axis in 0..count {
-            if let (Some(from), Some(to)) = (corner(axis), corner(axis + 1)) {
-                canvas.line(from, to, Stroke::series(at % SERIES));
-            }
-        }
-    }
-    let mut points = Points::default();
-    for (position, Rim { name: axis, .. }) in axes.iter().enumerate() {
-        if let (Some(corner), Some((share, value))) = (corner(position), shares[position]) {
-            points.at.push(corner);
-            points.words.push(format!(
-                "{}, {}: {} ({} % of the best)",
-                short(name, 40),
-                axis,
-                numeral(value),
-                numeral(share * 100.0)
-            ));
-        }
-    }
-    canvas.points(points, Ink::Series(at), 3.4, 1.0);
 }
 
 #[cfg(test)]

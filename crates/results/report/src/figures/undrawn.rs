@@ -78,7 +78,7 @@ const NEEDS: [(&str, &str, &str); 15] = [
     (
         "radar-accuracy",
         "",
-        "two or more sensors with the same scores",
+        "two or more results with values on at least three axes",
     ),
 ];
 

@@ -1,22 +1,44 @@
 //! Comparison as an HTML page.
 
 use maud::{Markup, html};
-use taceva_core::counted;
+use taceva_core::{counted, distinct};
 
-use super::{Document, lead, radars};
+use super::{Document, drawn, lead, radars};
 use crate::compare::{Answer, Comparison};
-use crate::figures::figures;
+use crate::figure::Figure;
+use crate::figures::{figures, intervals};
 use crate::markup::{fold, folded_glossary, score_link};
 use crate::names::listed;
 use crate::number::{numeral, spaced};
 use crate::results::Study;
 
 impl Comparison {
-    /// HTML page with decisions, all answers, and the sensors side by side.
+    /// Figures of `studies`: first the values of each metric of the most important questions, with intervals.
+    pub fn figures(&self, studies: &[Study]) -> Vec<Figure> {
+        let mut all = self.of_values(studies);
+        all.extend(figures(studies));
+        all
+    }
+
+    /// Figures of the values with intervals, one for each metric of the most important questions.
+    fn of_values(&self, studies: &[Study]) -> Vec<Figure> {
+        let decisions = self.decisions().into_iter();
+        let metrics = distinct(decisions.map(|decision| decision.metric)).into_iter();
+        metrics
+            .filter_map(|metric| intervals(studies, &metric))
+            .collect()
+    }
+
+    /// HTML page with decisions, all answers, values with intervals, and radars.
     pub fn page(&self, studies: &[Study]) -> String {
         let mut document = Document::new("Comparison", lead(studies));
         document.section("summary", "Decisions", self.decided());
         document.section("answers", "Every pair", self.pairs());
+        let of_values = self.of_values(studies);
+        if !of_values.is_empty() {
+            let figures = html! { @for figure in &of_values { (drawn(figure)) } };
+            document.section("values", "Values with intervals", figures);
+        }
         if let Some(radars) = radars(&figures(studies)) {
             document.section("figures", "Side by side", radars);
         }

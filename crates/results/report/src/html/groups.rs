@@ -4,7 +4,7 @@ use maud::{Markup, html};
 use taceva_results::{GroupErrors, group_errors};
 
 use crate::markup::{heads, scroll};
-use crate::names::names;
+use crate::names::{names, noun};
 use crate::number::numeral;
 use crate::results::Study;
 
@@ -28,7 +28,7 @@ pub(super) fn section(studies: &[Study]) -> Option<(usize, Markup)> {
     }
     let table = html! {
         table.sorts {
-            thead { tr { (heads(["sensor", "group", "channel", "mae", "unit", "n"])) } }
+            thead { tr { (heads([noun(studies), "group", "channel", "mae", "unit", "n"])) } }
             tbody { @for row in &rows { (row) } }
         }
     };

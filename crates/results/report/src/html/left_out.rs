@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::markup::{heads, scroll};
-use crate::names::names;
+use crate::names::{names, noun};
 use crate::results::Study;
 
 /// Number of skipped scores and remarks, and their rows.
@@ -37,7 +37,7 @@ pub(super) fn section(studies: &[Study]) -> (usize, Markup) {
     }
     let table = html! {
         table.sorts {
-            thead { tr { (heads(["sensor", "kind", "what", "why"])) } }
+            thead { tr { (heads([noun(studies), "kind", "what", "why"])) } }
             tbody { @for row in &rows { (row) } }
         }
     };

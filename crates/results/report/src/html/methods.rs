@@ -11,7 +11,7 @@ use taceva_core::{counted, distinct};
 use super::sensor_summary::{counted_span, points, span, whole};
 use crate::devices::device_table;
 use crate::markup::{heads, scroll};
-use crate::names::{listed, names};
+use crate::names::{listed, names, noun};
 use crate::results::Study;
 use crate::scores::ScoreTable;
 use crate::short_digests::short_digests;
@@ -92,13 +92,13 @@ fn origin(studies: &[Study]) -> String {
         (_, 0) => format!(" All samples are {kinds}, none was measured on hardware."),
         (some, _) => format!(
             " The samples of {} are {kinds} and were not measured on hardware.",
-            counted(some, "sensor")
+            counted(some, noun(studies))
         ),
     };
     if published > 0 {
         out += &format!(
             " The numbers of {} are published ones.",
-            counted(published, "sensor")
+            counted(published, noun(studies))
         );
     }
     out

@@ -1,25 +1,26 @@
-//! Summary of the studied sensors in one or two sentences.
+//! Summary of the studies in one or two sentences.
 
 use std::collections::BTreeSet;
 
 use taceva_core::counted;
 
-use crate::names::{listed, names};
+use crate::names::{listed, names, noun};
 use crate::results::Study;
 
-/// Sentence on the number of sensors, presses and points, the channels, and the model.
+/// Sentence on the number of studies, presses and points, the channels, and the model.
 pub(super) fn studied(studies: &[Study]) -> String {
+    let noun = noun(studies);
     let mut out = format!(
         "{}: {}.",
-        counted(studies.len(), "sensor"),
+        counted(studies.len(), noun),
         listed(&names(studies))
     );
     let presses = counted_span(studies, "press", |study| whole(study.made.presses));
     let points = counted_span(studies, "contact point", points);
     match (presses, points) {
-        (Some(presses), Some(points)) => out += &format!(" {presses} and {points} a sensor."),
-        (Some(presses), None) => out += &format!(" {presses} a sensor."),
-        (None, Some(points)) => out += &format!(" {points} a sensor."),
+        (Some(presses), Some(points)) => out += &format!(" {presses} and {points} a {noun}."),
+        (Some(presses), None) => out += &format!(" {presses} a {noun}."),
+        (None, Some(points)) => out += &format!(" {points} a {noun}."),
         (None, None) => {}
     }
     let mut channels: Vec<String> = Vec::new();
@@ -101,16 +102,18 @@ mod tests {
 
     #[test]
     fn one_press_is_one_press_and_several_numbers_are_a_range() {
-        let study = |presses| Study {
-            sensor: "A".to_owned(),
+        let study = |sensor: &str, presses| Study {
+            sensor: sensor.to_owned(),
             made: Made {
                 presses,
                 ..Made::default()
             },
             ..Study::default()
         };
-        assert_eq!(studied(&[study(1)]), "1 sensor: A. 1 press a sensor.");
-        let said = studied(&[study(1), study(3)]);
+        assert_eq!(studied(&[study("A", 1)]), "1 sensor: A. 1 press a sensor.");
+        let said = studied(&[study("A", 1), study("B", 3)]);
         assert!(said.ends_with(" 1 to 3 presses a sensor."), "{said}");
+        let said = studied(&[study("A", 1), study("A", 3)]);
+        assert!(said.ends_with(" 1 to 3 presses a result."), "{said}");
     }
 }

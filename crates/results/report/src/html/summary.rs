@@ -117,11 +117,14 @@ fn verdict(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Mark
         false => " that takes part",
     };
     let verdict = if known.len() < 2 {
-        format!("is the only sensor with a value{that_takes_part}")
+        format!("is the only {} with a value{that_takes_part}", table.noun)
     } else if is_demonstration(studies, &row.metric) {
         format!("has the best value, but {NO_VERDICT}")
     } else if rivals.is_empty() {
-        format!("is shown to be better than every other sensor{that_takes_part}")
+        format!(
+            "is shown to be better than every other {}{that_takes_part}",
+            table.noun
+        )
     } else {
         format!("has the best value, but is not shown to be better than {rivals}")
     };

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::markup::{heads, scroll};
-use crate::names::names;
+use crate::names::{names, noun};
 use crate::number::numeral;
 use crate::results::Study;
 
@@ -33,7 +33,7 @@ pub(super) fn section(studies: &[Study]) -> Option<(usize, Markup)> {
         }
     }
     let columns = [
-        "sensor",
+        noun(studies),
         "task",
         "score",
         "value",

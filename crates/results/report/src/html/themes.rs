@@ -100,7 +100,7 @@ pub(super) fn section(table: &ScoreTable, figures: &[Figure]) -> Markup {
         p.note {
             "Below each value its 95 % interval and n. "
             @if table.names.len() > 1 {
-                "Bold: shown to be better than every other sensor that takes part in verdicts, at a level of 5 % after Holm's adjustment over the metric. "
+                "Bold: shown to be better than every other " (table.noun) " that takes part in verdicts, at a level of 5 % after Holm's adjustment over the metric. "
             }
             "Columns sort. "
             "Point at a mark of a figure for its value and n, or step through its marks with the arrow keys."

@@ -57,13 +57,27 @@ impl ScoreTable {
         main.captioned(what)
     }
 
+    /// Caption of all rows: `Scores of GelSight (ridge) on 80 simulated test samples in 20 clusters by contact point, with 95 % intervals.` A second
+    /// sentence has the range of numbers of samples, if they differ.
+    pub fn title(&self) -> String {
+        let caption = self.captioned("Scores");
+        let counts: BTreeSet<u64> = self.valued().map(|cell| cell.n).collect();
+        match (counts.first(), counts.last()) {
+            (Some(least), Some(greatest)) if least < greatest => {
+                let points = self.points();
+                format!("{caption} n is {least} to {greatest}{points}.")
+            }
+            _ => caption,
+        }
+    }
+
     /// Caption that begins with `what`: `Values of 2 sensors, as published, without intervals.`
     pub(super) fn captioned(&self, what: &str) -> String {
         let (samples, intervals) = (self.samples(), self.intervals());
         format!("{what} of {}{samples}{intervals}.", self.subjects())
     }
 
-    /// Sensors and models of the caption: `GelSight (ridge)`, `4 sensors`, `3 results of GelSight`.
+    /// Sensors and models of the caption: `GelSight (ridge)`, `4 sensors`, `3 models of GelSight`.
     fn subjects(&self) -> String {
         let sensors: BTreeSet<&str> = self.about.iter().map(|of| of.sensor.as_str()).collect();
         match (self.about.as_slice(), sensors.len()) {
@@ -81,9 +95,9 @@ impl ScoreTable {
                     "unknown" => String::new(),
                     sensor => format!(" of {sensor}"),
                 };
-                format!("{}{of}", counted(several.len(), "result"))
+                format!("{}{of}", counted(several.len(), self.noun))
             }
-            (several, _) => counted(several.len(), "sensor"),
+            (several, _) => counted(several.len(), self.noun),
         }
     }
 

@@ -152,12 +152,15 @@ impl ScoreTable {
     fn note(&self) -> Option<Words> {
         let mut sentences = Vec::new();
         if self.valued().any(|cell| cell.is_best) {
-            sentences.push(
-                "Bold: better than every other sensor at a level of 5 % after Holm's adjustment."
-                    .to_owned(),
-            );
+            sentences.push(format!(
+                "Bold: better than every other {} at a level of 5 % after Holm's adjustment.",
+                self.noun
+            ));
         } else if self.names.len() > 1 {
-            sentences.push("None is shown to be better than every other sensor at a level of 5 % after Holm's adjustment.".to_owned());
+            sentences.push(format!(
+                "None is shown to be better than every other {} at a level of 5 % after Holm's adjustment.",
+                self.noun
+            ));
         }
         sentences.extend(self.legend(BARRED));
         if self.rows.iter().any(|row| row.metric == "repeatability") {
@@ -172,7 +175,10 @@ impl ScoreTable {
             sentences.extend(about.optimistic.iter().map(|note| format!("{of}{note}.")));
         }
         if self.spread.is_some() {
-            sentences.push("The labels of the sensors differ more than twofold in spread, which may explain part of a difference between scores.".to_owned());
+            sentences.push(format!(
+                "The labels of the {}s differ more than twofold in spread, which may explain part of a difference between scores.",
+                self.noun
+            ));
         }
         (!sentences.is_empty()).then(|| Words::new(sentences.join(" ")))
     }

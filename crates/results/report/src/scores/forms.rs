@@ -7,12 +7,6 @@ use super::mark::{BARRED, UNPROVEN};
 use super::{ScoreCell, ScoreRow, ScoreTable};
 use crate::table::{Align, Cell, Column, Direction, Estimate, Row, Table, Words, latex_symbol};
 
-/// Legend of bold numbers, as plain text and as LaTeX.
-const BOLD: [&str; 2] = [
-    "Bold: better than every other sensor that takes part in verdicts, at a level of 5 % after Holm's adjustment.",
-    "Bold: better than every other sensor that takes part in verdicts, at a level of 5\\,\\% after Holm's adjustment.",
-];
-
 impl ScoreTable {
     /// Table for programs with one row for each score and study, and numbers in shortest round-trip form.
     pub fn every_number(&self) -> Table {
@@ -50,6 +44,7 @@ impl ScoreTable {
         let columns = ["metric", "channel", "unit"].map(Column::new);
         let [metric, channel, unit] = columns;
         let metric = metric.direction(Direction::OfMetrics);
+        let common = self.common_remark();
         let mut table = self.of_studies([metric, channel, unit]);
         for row in &self.rows {
             let words = [
@@ -57,12 +52,14 @@ impl ScoreTable {
                 row.channel.clone(),
                 row.unit.to_string(),
             ];
-            let cells = row.cells.iter().map(|cell| estimate(cell.as_ref()));
+            let cells = row.cells.iter();
+            let cells = cells.map(|cell| estimate(cell.as_ref(), common.as_deref()));
             table.push(words.map(Cell::text).into_iter().chain(cells));
         }
         if self.names.len() > 1 {
-            table.note(Words::new(BOLD[0]).latex(BOLD[1]));
+            table.note(self.legend_of_bold());
         }
+        table.note_all(common.map(|remark| format!("Every value: {remark}.")));
         table.note_all(self.spread.as_deref());
         table
     }
@@ -96,12 +93,33 @@ impl ScoreTable {
             last = &row.metric;
         }
         if self.names.len() > 1 {
-            table.note(Words::new(BOLD[0]).latex(BOLD[1]));
+            table.note(self.legend_of_bold());
         }
         let marks = [BARRED, UNPROVEN].into_iter();
         table.note_all(marks.filter_map(|of| self.legend(of)));
         table.note_all(self.spread.as_deref());
         table
+    }
+
+    /// Remark that all of several values have, such as a missing interval; `None` if they have different remarks or none.
+    fn common_remark(&self) -> Option<String> {
+        let mut remarks = self.valued().map(ScoreCell::remark);
+        let first = remarks.next()??;
+        let mut others = remarks.peekable();
+        let is_alone = others.peek().is_none();
+        let is_common = others.all(|other| other.as_ref() == Some(&first));
+        (is_common && !is_alone).then_some(first)
+    }
+
+    /// Legend of bold numbers, as plain text and as LaTeX.
+    fn legend_of_bold(&self) -> Words {
+        let legend = |level: &str| {
+            format!(
+                "Bold: better than every other {} that takes part in verdicts, at a level of {level} after Holm's adjustment.",
+                self.noun
+            )
+        };
+        Words::new(legend("5 %")).latex(legend("5\\,\\%"))
     }
 
     /// Table with `columns`, then one column for each study.
@@ -136,12 +154,12 @@ impl ScoreRow {
     }
 }
 
-/// Value with its interval, or the reason why it is absent.
-fn estimate(cell: Option<&ScoreCell>) -> Cell {
+/// Value with its interval, or the reason why it is absent. Omits the remark that is `common` to all values.
+fn estimate(cell: Option<&ScoreCell>, common: Option<&str>) -> Cell {
     Cell::Estimate(cell.map_or_else(Estimate::default, |cell| Estimate {
         formatted: cell.formatted.clone(),
         unit: String::new(),
-        remark: cell.remark(),
+        remark: cell.remark().filter(|own| Some(own.as_str()) != common),
         mark: "",
         is_best: cell.is_best,
     }))

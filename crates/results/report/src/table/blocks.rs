@@ -82,7 +82,9 @@ impl Cell {
                 let remark = estimate.remark.as_deref().unwrap_or_default();
                 letters_pt(&value, VALUE_SIZE * wider).max(letters_pt(remark, SMALL_SIZE))
             }
-            Cell::Number(_) | Cell::Verdict(_) => letters_pt(&self.plain(), VALUE_SIZE),
+            Cell::Number(_) | Cell::Rounded { .. } | Cell::Verdict(_) => {
+                letters_pt(&self.plain(), VALUE_SIZE)
+            }
         }
     }
 }

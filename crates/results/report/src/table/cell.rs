@@ -12,6 +12,13 @@ pub enum Cell {
     Text(Words),
     /// Number, formatted as text.
     Number(String),
+    /// Number that is rounded for readers.
+    Rounded {
+        /// Text for readers.
+        shown: String,
+        /// Shortest round-trip form, for programs.
+        exact: String,
+    },
     /// Value with its interval.
     Estimate(Estimate),
     /// Result of a limit; true if it is met.
@@ -44,6 +51,17 @@ impl Cell {
         Cell::Number(value.map_or_else(String::new, |value| format!("{value:?}")))
     }
 
+    /// Cell of a p value; a dash without a value.
+    pub(crate) fn p_value(p: Option<f64>) -> Cell {
+        match p {
+            Some(p) => Cell::Rounded {
+                shown: taceva_metrics::p_value(p),
+                exact: format!("{p:?}"),
+            },
+            None => Cell::from("–"),
+        }
+    }
+
     /// Cell of a value with its interval; a dash without a value.
     pub(crate) fn estimate(value: Option<f64>, ends: Option<[f64; 2]>) -> Cell {
         let formatted = match value {
@@ -63,7 +81,7 @@ impl Cell {
     pub fn plain(&self) -> String {
         match self {
             Cell::Text(words) => words.plain().to_owned(),
-            Cell::Number(text) => text.clone(),
+            Cell::Number(text) | Cell::Rounded { shown: text, .. } => text.clone(),
             Cell::Estimate(estimate) => estimate.plain(),
             Cell::Verdict(true) => "pass".to_owned(),
             Cell::Verdict(false) => "FAIL".to_owned(),
@@ -77,7 +95,7 @@ impl Cell {
             Cell::Estimate(estimate) => Words::new(estimate.plain())
                 .markdown(estimate.in_markdown())
                 .latex(estimate.in_latex()),
-            Cell::Number(_) | Cell::Verdict(_) => Words::new(self.plain()),
+            Cell::Number(_) | Cell::Rounded { .. } | Cell::Verdict(_) => Words::new(self.plain()),
         }
     }
 
@@ -89,8 +107,16 @@ impl Cell {
         }
     }
 
+    /// Exact number behind a rounded one, for programs and for sorting on a page; `None` for other cells.
+    pub(super) fn exact_text(&self) -> Option<&str> {
+        match self {
+            Cell::Rounded { exact, .. } => Some(exact),
+            _ => None,
+        }
+    }
+
     pub(super) fn is_number(&self) -> bool {
-        matches!(self, Cell::Number(_))
+        matches!(self, Cell::Number(_) | Cell::Rounded { .. })
     }
 
     /// True for an empty cell.

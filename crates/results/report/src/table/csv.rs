@@ -16,7 +16,7 @@ impl Table {
         write(head.iter().map(|name| escape_csv(name)).collect());
         for row in rows {
             let cell = |cell: &Cell| match cell {
-                Cell::Number(text) => text.clone(),
+                Cell::Number(text) | Cell::Rounded { exact: text, .. } => text.clone(),
                 cell => escape_csv(&cell.plain()),
             };
             write(row.iter().map(cell).collect());

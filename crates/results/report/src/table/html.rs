@@ -58,7 +58,7 @@ impl Table {
                 tbody {
                     @for row in &self.rows {
                         tr {
-                            @for (at, class) in &shown { td class=[class] { (written(&self.columns[*at], row, &row.cells[*at])) } }
+                            @for (at, class) in &shown { td class=[class] data-v=[row.cells[*at].exact_text()] { (written(&self.columns[*at], row, &row.cells[*at])) } }
                         } "\n"
                     }
                 }

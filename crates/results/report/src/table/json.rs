@@ -10,7 +10,12 @@ impl Table {
         let (head, rows) = self.for_programs();
         let rows = rows.iter().map(|row| {
             let cells = head.iter().zip(row);
-            let cells = cells.map(|(name, cell)| (name.clone(), Value::from(cell.plain())));
+            let cells = cells.map(|(name, cell)| {
+                let text = cell
+                    .exact_text()
+                    .map_or_else(|| cell.plain(), str::to_owned);
+                (name.clone(), Value::from(text))
+            });
             Value::Object(cells.collect())
         });
         let rows: Vec<Value> = rows.collect();

@@ -66,6 +66,17 @@ fn words_that_look_like_numbers_stay_words() {
 }
 
 #[test]
+fn a_rounded_p_value_keeps_all_its_digits_for_programs() {
+    let mut table = Table::new("", ["p"]);
+    table.push([Cell::p_value(Some(0.000_123_4))]);
+    assert_eq!(table.text(), "      p\n< 0.001\n");
+    assert_eq!(table.csv(), "p\n0.0001234\n");
+    assert!(table.json("x").contains("\"p\": \"0.0001234\""));
+    let page = table.html_fragment();
+    assert!(page.contains("data-v=\"0.0001234\""), "{page}");
+}
+
+#[test]
 fn each_number_of_a_mixed_column_stands_to_the_right_where_it_says_so() {
     let by_cell = Column::new("value").align(Align::ByCell);
     let mut table = Table::new("", [Column::new("metric"), by_cell]);

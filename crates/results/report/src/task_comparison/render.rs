@@ -1,12 +1,12 @@
 //! Comparisons of tasks as tables, text and JSON.
 
 use serde_json::{Value, json};
-use taceva_metrics::Difference;
+use taceva_metrics::{Difference, p_words};
 use taceva_results::not_measured;
 
 use super::{TaskAnswer, TaskComparison, tasks};
 use crate::escape::terminal;
-use crate::number::{numeral, significant};
+use crate::number::numeral;
 use crate::table::{Cell, Column, Table};
 use crate::task_result::ResultScore;
 use crate::wrap::wrapped;
@@ -130,8 +130,8 @@ impl TaskComparison {
                 Cell::from(number(answer.values.b)),
                 Cell::from(of(&|of| numeral(of.value))),
                 Cell::text(of(&ends)),
-                Cell::from(of(&|of| significant(of.p))),
-                Cell::from(of(&|of| significant(of.adjusted_p))),
+                Cell::p_value(difference.map(|of| of.p)),
+                Cell::p_value(difference.map(|of| of.adjusted_p)),
                 Cell::text(answer.unit.as_str()),
                 Cell::text(of(&|of| of.test.to_string())),
                 Cell::text(self.words(answer)),
@@ -168,9 +168,9 @@ impl TaskComparison {
             unit => format!(" {unit}"),
         };
         let numbers = format!(
-            "{}{unit}, p = {} by Holm, {}",
+            "{}{unit}, {} by Holm, {}",
             ends(difference),
-            significant(difference.adjusted_p),
+            p_words(difference.adjusted_p),
             difference.test
         );
         match (difference.is_shown, answer.winner) {

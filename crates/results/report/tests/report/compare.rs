@@ -1,6 +1,7 @@
 //! Tests of comparisons of synthetic scores: the better sensor, the words, and readable lines and rows.
 
 mod asked;
+mod p_values;
 mod pairs;
 mod reach;
 mod splits;
@@ -283,7 +284,12 @@ fn a_row_has_both_scores_their_difference_and_the_answer() {
 
 #[test]
 fn a_page_says_who_is_better_and_has_radars_only_if_some_are_drawn() {
-    let studies = errors(&[("one", 0.25), ("two", 0.75)]);
+    let of = |sensor, value| {
+        let scores = [("Fz", "N"), ("Fxy", "N"), ("Pz", "mm")];
+        let scores = scores.map(|(channel, unit)| ("mae", channel, score(value, 0.01, unit)));
+        study(sensor, &scores, &["Fz", "Fxy", "Pz"])
+    };
+    let studies = [of("one", 0.25), of("two", 0.75)];
     let page = of_metric(&studies, "mae").page(&studies);
     assert!(page.contains("<strong>one</strong> is better than two (0.25 and 0.75 N)"));
     let has_radars = |studies: &[Study]| {
@@ -295,6 +301,24 @@ fn a_page_says_who_is_better_and_has_radars_only_if_some_are_drawn() {
     let studies = [of("one", 0.25), of("two", 0.75)];
     let page = of_metric(&studies, "rmse").page(&studies);
     assert!(!has_radars(&studies) && !page.contains("Side by side"));
+}
+
+#[test]
+fn a_page_draws_the_values_of_each_asked_metric_with_intervals_and_n() {
+    let studies = errors(&[("one", 0.25), ("two", 0.75)]);
+    let comparison = of_metric(&studies, "mae");
+    let page = comparison.page(&studies);
+    assert_eq!(page.matches("id=\"figure-intervals-").count(), 1, "{page}");
+    let figure = comparison.figures(&studies).remove(0);
+    assert_eq!(figure.id, "intervals-mae");
+    assert!(figure.caption.ends_with(" n is 80."), "{}", figure.caption);
+    let svg = figure.svg();
+    for words in [
+        "one, Fz: 0.250 N (0.230 … 0.270), n = 80",
+        "two, Fz: 0.750 N (0.730 … 0.770), n = 80",
+    ] {
+        assert!(svg.contains(words), "{words}: {svg}");
+    }
 }
 
 #[test]

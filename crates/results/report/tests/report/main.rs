@@ -8,10 +8,12 @@ mod golden;
 mod hostile;
 mod latex;
 mod main_table;
+mod nouns;
 mod paper;
 mod paper_form;
 mod pdf;
 mod pdf_file;
+mod radars;
 mod reports;
 #[path = "../support/mod.rs"]
 mod support;

@@ -43,7 +43,6 @@ fn every_figure_of_the_list_is_drawn_and_none_is_empty() {
             "tolerance",
             "crosstalk",
             "radar-accuracy",
-            "radar-sensor",
             "radar-robustness"
         ]
     );

@@ -2,7 +2,8 @@
 
 use taceva_metrics::Better;
 
-use super::super::radar::{Rim, WIDTH, outline, shares, web};
+use super::super::radar::shares;
+use super::super::radar_web::{Rim, WIDTH, outline, web};
 use crate::figure::{Canvas, Figure};
 use crate::results::Study;
 

@@ -1,7 +1,10 @@
 //! Tests of requested metrics, and of metrics of another version.
 
+use super::pairs::sampled;
 use super::{of_metric, score, study};
-use taceva_report::{CompareRequest, Comparison, Study, compare};
+use serde_json::json;
+use taceva_report::{CompareRequest, Comparison, ScoreTable, Study, compare};
+use taceva_results::Interval;
 
 /// Two sensors; the second has the smaller errors.
 fn two() -> [Study; 2] {
@@ -114,4 +117,78 @@ fn a_margin_of_no_score_is_refused_with_the_scores_that_there_are() {
     );
     let error = refused("mea").expect_err("no metric");
     assert!(error.contains("did you mean `mae`?"), "{error}");
+}
+
+#[test]
+fn a_note_on_skill_is_made_only_if_skill_is_asked_for() {
+    let mut studies = ["one", "two"].map(|sensor| {
+        let skill = ("skill", "Fz", score(0.9, 0.01, "1"));
+        let error = ("mae", "Fz", score(0.25, 0.01, "N"));
+        study(sensor, &[error, skill], &["Fz"])
+    });
+    for (study, seed) in studies.iter_mut().zip(["1", "2"]) {
+        study.provenance.push(("seed".to_owned(), seed.to_owned()));
+    }
+    let has_note = |metrics: &[&str]| {
+        let request = CompareRequest {
+            metrics: metrics.iter().map(|name| (*name).to_owned()).collect(),
+            ..CompareRequest::default()
+        };
+        let notes = compare(&studies, &request).notes;
+        notes.iter().any(|note| note.starts_with("skill was"))
+    };
+    assert!(has_note(&[]) && has_note(&["mae", "skill"]));
+    assert!(!has_note(&["mae"]));
+}
+
+#[test]
+fn the_reason_why_no_score_has_an_interval_is_stated_once() {
+    let without = |value: f64, unit: &str| {
+        json!({
+            "value": value, "unit": unit, "n": 80, "ci95": {"undefined": "samples without point_id"},
+            "definition": "drawn/1"
+        })
+    };
+    let studies = ["one", "two"].map(|sensor| {
+        let scores = [
+            ("mae", "Fz", without(0.25, "N")),
+            ("r2", "Fz", without(0.9, "1")),
+        ];
+        study(sensor, &scores, &[])
+    });
+    let comparison = of_metric(&studies, "mae");
+    let start = "no score of one and two has an interval, so no difference is tested: samples without point_id; ";
+    let said = comparison.notes.iter();
+    let said = said.filter(|note| note.starts_with(start));
+    assert_eq!(said.count(), 1, "{:?}", comparison.notes);
+    let reason = comparison.answers[0].reason.as_deref().unwrap_or_default();
+    let own =
+        "one: no interval to compare with predicting the mean: samples without point_id; two: ";
+    assert!(reason.starts_with(own), "{reason}");
+    let scores = ScoreTable::of(&studies);
+    let text = scores.for_pages().text();
+    assert_eq!(text.matches("no interval to compare").count(), 1, "{text}");
+    assert_eq!(
+        scores.title(),
+        "Scores of 2 sensors on 80 simulated samples each, without intervals (samples without point_id)."
+    );
+    let published = studies.map(|study| Study {
+        source: "published".to_owned(),
+        ..study
+    });
+    let notes = of_metric(&published, "mae").notes;
+    assert!(!notes.iter().any(|note| note.starts_with("no score of")));
+}
+
+#[test]
+fn a_tested_score_without_an_interval_has_no_note_that_nothing_is_tested() {
+    let mut studies =
+        [("exact", 0.25), ("other", 0.5)].map(|(name, error)| sampled(name, 0.0, error));
+    for score in &mut studies[0].scores {
+        score.interval = Some(Interval::Absent("the score is at its end".to_owned()));
+    }
+    let comparison = of_metric(&studies, "mae");
+    assert!(comparison.answers[0].difference.is_some());
+    let mut notes = comparison.notes.iter();
+    assert!(!notes.any(|note| note.starts_with("no score of")));
 }
