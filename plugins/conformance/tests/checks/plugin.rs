@@ -10,6 +10,10 @@ use crate::fixture::{Fixture, cpp};
 use crate::runner::Test;
 
 fn checked(fixture: &Fixture, only: &[&str]) -> Vec<CheckResult> {
+    checked_within(fixture, only, Duration::from_secs(10))
+}
+
+fn checked_within(fixture: &Fixture, only: &[&str], limit: Duration) -> Vec<CheckResult> {
     let log = Arc::new(|_: &_, _, _: &str, _: &str| {});
     let host = PluginHost::with_children(
         fixture.found(),
@@ -19,7 +23,7 @@ fn checked(fixture: &Fixture, only: &[&str]) -> Vec<CheckResult> {
     );
     let request = CheckRequest {
         only: only.iter().map(|name| (*name).to_owned()).collect(),
-        limit: Duration::from_secs(10),
+        limit,
         ..CheckRequest::default()
     };
     let mut results = Vec::new();
@@ -82,8 +86,8 @@ pub(crate) const TESTS: &[Test] = &[
         readings_with_one_number_are_found_frozen,
     ),
     (
-        "stamps_of_a_real_device_in_another_unit_are_found_with_that_unit",
-        stamps_of_a_real_device_in_another_unit_are_found_with_that_unit,
+        "stamps_of_a_real_device_in_another_unit_or_of_another_clock_are_found",
+        stamps_of_a_real_device_in_another_unit_or_of_another_clock_are_found,
     ),
     (
         "a_device_of_each_kind_in_cpp_keeps_every_promise",
@@ -217,7 +221,7 @@ fn readings_with_one_number_are_found_frozen() {
     }
 }
 
-fn stamps_of_a_real_device_in_another_unit_are_found_with_that_unit() {
+fn stamps_of_a_real_device_in_another_unit_or_of_another_clock_are_found() {
     for (source, title, check) in [
         (
             "EYE_SOURCE=\"real\"",
@@ -230,25 +234,39 @@ fn stamps_of_a_real_device_in_another_unit_are_found_with_that_unit() {
             "force/stamps-by-the-clock",
         ),
     ] {
-        for (unit, words) in [
-            ("UNIT_NS=1", None),
-            ("UNIT_NS=1000", Some("microseconds")),
-            ("UNIT_NS=1000000", Some("milliseconds")),
+        for (macros, words) in [
+            (&["UNIT_NS=1"][..], None),
+            (
+                &["UNIT_NS=1000"],
+                Some("they are probably microseconds where nanoseconds are expected"),
+            ),
+            (
+                &["UNIT_NS=1000000"],
+                Some("they are probably milliseconds where nanoseconds are expected"),
+            ),
+            (
+                &["UNIT_NS=1", "LAG_NS=-3600000000000"],
+                Some("it has stamps 3600 s ahead of the clock of this machine"),
+            ),
+            (
+                &["UNIT_NS=1", "STAMP_RATE=1.5"],
+                Some("correct the rate from which its driver computes them"),
+            ),
         ] {
-            let Some(fixture) = Fixture::built(&[source, unit]) else {
+            let Some(fixture) = Fixture::built(&[&[source][..], macros].concat()) else {
                 return;
             };
             let [simulated, real] =
                 ["simulated", "real"].map(|source| format!("{title}\nsource = \"{source}\""));
             let fixture = fixture.with_manifest(&simulated, &real);
-            let results = checked(&fixture, &[check]);
+            // A rate is compared for up to 6 s.
+            let results = checked_within(&fixture, &[check], Duration::from_secs(30));
             match (&results[0].outcome, words) {
                 (Outcome::Passed, None) => {}
                 (Outcome::Failed(why), Some(words)) => {
-                    let unit = format!("they are probably {words} where nanoseconds are expected");
-                    assert!(why.contains(&unit), "{unit}: {why}");
+                    assert!(why.contains(words), "{words}: {why}");
                 }
-                (outcome, _) => panic!("{check}, {unit}: {outcome:?}"),
+                (outcome, _) => panic!("{check}, {macros:?}: {outcome:?}"),
             }
         }
     }

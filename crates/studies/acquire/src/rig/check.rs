@@ -2,7 +2,9 @@
 
 use std::time::Duration;
 
-use taceva_core::{Deadline, Descriptor, DriverError, EnablingSwitch, ErrorKind, Robot, Speed};
+use taceva_core::{
+    Deadline, Descriptor, DriverError, EnablingSwitch, ErrorKind, Robot, Speed, StampAge,
+};
 use taceva_drivers::{Drivers, MonotonicClock};
 use taceva_protocol::{Answer, Cancel, Operator, Question, RigFile};
 
@@ -31,8 +33,6 @@ const STALE_PERIODS: f64 = 3.0;
 const STALE_MS: f64 = 50.0;
 /// Minimum ratio of the stated noise to the measured noise.
 const NOISE_PART: f64 = 0.5;
-/// Greatest age of a reading on arrival, in ms, that a device and its link explain.
-const LATE_MAX_MS: f64 = 10_000.0;
 
 /// Result of checking a rig.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
@@ -237,7 +237,7 @@ impl RigCheck {
         if heard.count == 0 {
             self.problems.push(RigProblem::Unheard { device });
         }
-        if heard.late_ms.abs() > LATE_MAX_MS {
+        if !StampAge::of(1e-3 * heard.late_ms).is_of_host_clock() {
             let late_ms = heard.late_ms;
             self.problems
                 .push(RigProblem::OtherClock { device, late_ms });
