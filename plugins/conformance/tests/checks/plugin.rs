@@ -157,6 +157,16 @@ fn every_kind_of_mistake_is_found_by_a_check() {
         (&["TOLD_WIDTH=4"], "sensor/gives-the-frames", "expected 8×6"),
         (&["DEAF", "BLOCK"], "sensor/interrupt", "too slow"),
         (&["NAPS"], "sensor/interrupt", "the wait after an interrupt"),
+        (
+            &["NAPS"],
+            "sensor/keeps-deadlines",
+            "or longer in 8 of 10 calls, expected at most 55ms",
+        ),
+        (
+            &["WRIST_NAPS"],
+            "force/keeps-deadlines",
+            "or longer in 8 of 10 calls, expected at most 25ms",
+        ),
         (&["BLOCK"], "sensor/gives-the-frames", "too slow"),
         (&["OVERRUNS"], "sensor/writes-no-further", "it wrote beyond"),
         (
