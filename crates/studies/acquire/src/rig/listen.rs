@@ -5,7 +5,7 @@ use std::time::Duration;
 use taceva_core::{
     Deadline, DriverError, ErrorKind, ForceTransducer, FrameMut, Pose, Robot, Sensor,
 };
-use taceva_drivers::MonotonicClock;
+use taceva_drivers::{MonotonicClock, plugin_remedy};
 
 use super::stream::{Listener, Stream};
 
@@ -18,10 +18,11 @@ const LOOK: Duration = Duration::from_millis(10);
 
 /// Message for an error of an open device, with its remedy.
 pub(super) fn without_answer(error: DriverError) -> String {
-    let remedy = match error.kind() {
+    let remedy = match (plugin_remedy(&error), error.kind()) {
+        (Some(remedy), _) => format!(" {remedy},"),
         // The device answers, and its message names the remedy.
-        ErrorKind::DeviceFault => "",
-        _ => " check its cable and power, and whether another program uses it,",
+        (None, ErrorKind::DeviceFault) => String::new(),
+        _ => " check its cable and power, and whether another program uses it,".to_owned(),
     };
     format!("{error};{remedy} then run `taceva rig check` again")
 }
