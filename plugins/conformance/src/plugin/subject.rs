@@ -8,9 +8,12 @@ use taceva_core::{
     ArgError, Args, Deadline, Descriptor, DescriptorError, Device, DriverError, DriverKey,
     DriverKind, DriverSource, Factory, Rig,
 };
-use taceva_host::bare::{ArgList, Entry, Opened, RigHandle, Source, Table, call, open};
+use taceva_host::bare::{
+    ArgList, Entry, Opened, RigHandle, Source, Table, call, open, pending_call,
+};
 use taceva_host::{Failure, InProcess, Library, Manifest, Provided, Session};
 
+use super::call_name::LOADING;
 use super::probe::Probe;
 use super::surroundings::Surroundings;
 use crate::promise::{Kinded, Unmet, broken, skipped};
@@ -44,9 +47,11 @@ impl Subject {
     pub(super) fn new(source: Source, manifest: &Manifest, probe: Probe) -> Result<Subject, Unmet> {
         let failed = |error: &dyn std::fmt::Display| broken(error.to_string());
         let before = Surroundings::now();
+        let loading = pending_call::begin(LOADING);
         let library = source
             .load(Some(manifest), Box::new(|_, _, _| {}))
             .map_err(|error| failed(&error.problem()))?;
+        drop(loading);
         let session = InProcess::open(&library)?;
         let key = match probe.driver.as_str() {
             "" => None,

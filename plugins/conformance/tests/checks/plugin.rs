@@ -82,6 +82,10 @@ pub(crate) const TESTS: &[Test] = &[
         checks_that_hang_in_the_call_of_an_earlier_one_are_skipped,
     ),
     (
+        "a_plugin_that_hangs_while_it_loads_fails_one_check_and_skips_all_others_at_once",
+        a_plugin_that_hangs_while_it_loads_fails_one_check_and_skips_all_others_at_once,
+    ),
+    (
         "readings_with_one_number_are_found_frozen",
         readings_with_one_number_are_found_frozen,
     ),
@@ -125,7 +129,28 @@ fn checks_that_hang_in_the_call_of_an_earlier_one_are_skipped() {
     let why = "it did not open the device, as in `driver/opens`, which failed";
     let skipped = Outcome::Skipped(why.to_owned());
     let skipped = results.iter().filter(|result| result.outcome == skipped);
-    assert!(skipped.count() >= 2, "{results:#?}");
+    // No process is started for these checks.
+    let at_once = skipped.filter(|result| result.took_s < 1.0);
+    assert!(at_once.count() >= 2, "{results:#?}");
+}
+
+fn a_plugin_that_hangs_while_it_loads_fails_one_check_and_skips_all_others_at_once() {
+    let Some(fixture) = Fixture::built(&["INIT_HANGS"]) else {
+        return;
+    };
+    let results = checked(&fixture, &[]);
+    let (first, others) = results.split_first().expect("checks");
+    assert_eq!(first.check, "library/loads");
+    let why = "it did not load its library within 10s";
+    assert!(
+        matches!(&first.outcome, Outcome::Failed(found) if found.contains(why)),
+        "{first:?}"
+    );
+    let why = "it did not load its library, as in `library/loads`, which failed";
+    for result in others {
+        assert_eq!(result.outcome, Outcome::Skipped(why.to_owned()));
+        assert!(result.took_s < 1.0, "{result:?}");
+    }
 }
 
 fn every_kind_of_mistake_is_found_by_a_check() {
