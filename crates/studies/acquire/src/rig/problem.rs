@@ -4,6 +4,8 @@ use std::fmt;
 
 use taceva_core::StampAge;
 
+use super::listen::LISTENED;
+
 /// Maximum time from a halt to a robot at rest, in ms. Plans have the same limit for a stated stop time.
 pub(super) const HALT_MS: f64 = 50.0;
 
@@ -79,7 +81,8 @@ impl fmt::Display for RigProblem {
             }
             RigProblem::Unheard { device } => write!(
                 f,
-                "the {device} sent no valid data: check its cable, its address in the rig file, and whether another program uses it; for a plugin, `taceva plugin check` prints its errors"
+                "the {device} sent no valid data in {} s: check its cable, its address in the rig file, and whether another program uses it; for a plugin, `taceva plugin check` prints its errors",
+                LISTENED.as_secs()
             ),
             RigProblem::Gaps { gap_ms, allowed_ms } => write!(
                 f,
