@@ -8,7 +8,9 @@ use taceva_core::{
 use taceva_drivers::{Drivers, MonotonicClock};
 use taceva_protocol::{Answer, Cancel, Operator, Question, RigFile};
 
-use super::listen::{LISTENED, listen_to_force, listen_to_robot, listen_to_sensor, without_answer};
+use super::listen::{
+    LISTENED, listen_to_force, listen_to_robot, listen_to_sensor, unopened, without_answer,
+};
 use super::problem::{HALT_MS, RigProblem};
 use super::stock::{Stock, TriedStock, take_stock};
 use super::stream::Stream;
@@ -114,9 +116,11 @@ impl RigCheck {
         let opener = FileOpener::new(rig, drivers);
         // The switch comes first: without it, no robot moves.
         let switch = self.of("switch", open_switch(rig, drivers)).flatten();
-        let sensor = self.of("sensor", opener.sensor()).flatten();
-        let robot = self.of("robot", opener.robot()).flatten();
-        let force = self.of("force", opener.force()).flatten();
+        let sensor = self
+            .of("sensor", opener.sensor().map_err(unopened))
+            .flatten();
+        let robot = self.of("robot", opener.robot().map_err(unopened)).flatten();
+        let force = self.of("force", opener.force().map_err(unopened)).flatten();
         for TriedStock { key, holds } in take_stock(rig, &opener) {
             if let Some(holds) = self.of(key, holds).flatten() {
                 self.changers.push(Stock { key, holds });

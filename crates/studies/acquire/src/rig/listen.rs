@@ -5,9 +5,10 @@ use std::time::Duration;
 use taceva_core::{
     Deadline, DriverError, ErrorKind, ForceTransducer, FrameMut, Pose, Robot, Sensor,
 };
-use taceva_drivers::{MonotonicClock, plugin_remedy};
+use taceva_drivers::{MonotonicClock, OpenError, plugin_remedy};
 
 use super::stream::{Listener, Stream};
+use crate::error::AcquireError;
 
 /// Duration of the measurement of each device.
 pub(super) const LISTENED: Duration = Duration::from_secs(2);
@@ -25,6 +26,21 @@ pub(super) fn without_answer(error: DriverError) -> String {
         _ => " check its cable and power, and whether another program uses it,".to_owned(),
     };
     format!("{error};{remedy} then run `taceva rig check` again")
+}
+
+/// Message for a device that did not open, with the remedy if its plugin ended.
+pub(super) fn unopened(error: AcquireError) -> String {
+    let remedy = match &error {
+        AcquireError::OpenOfRig { source, .. } => match &**source {
+            OpenError::Device(cause) => plugin_remedy(cause),
+            _ => None,
+        },
+        _ => None,
+    };
+    match remedy {
+        Some(remedy) => format!("{error}; {remedy}, then run `taceva rig check` again"),
+        None => error.to_string(),
+    }
 }
 
 /// Calls `hear` repeatedly until the measurement ends.
