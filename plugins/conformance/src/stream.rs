@@ -166,7 +166,7 @@ pub(crate) fn passed_deadline<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Resul
     keeps(tried, 5, Duration::ZERO)
 }
 
-/// A wait with a short deadline ends at most `Trial::at_once` after the deadline, and the third shortest of ten waits at most `Trial::overrun` after it.
+/// A wait with a short deadline ends at most `Trial::at_once` after the deadline, and the third shortest wait at most `Trial::overrun` after it.
 pub(crate) fn keeps_deadlines<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
     keeps(tried, 10, Duration::from_millis(5))
 }

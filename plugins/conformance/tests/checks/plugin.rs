@@ -90,6 +90,10 @@ pub(crate) const TESTS: &[Test] = &[
         readings_with_one_number_are_found_frozen,
     ),
     (
+        "calls_of_a_real_device_that_block_beyond_their_deadline_are_found",
+        calls_of_a_real_device_that_block_beyond_their_deadline_are_found,
+    ),
+    (
         "stamps_of_a_real_device_in_another_unit_or_of_another_clock_are_found",
         stamps_of_a_real_device_in_another_unit_or_of_another_clock_are_found,
     ),
@@ -182,16 +186,6 @@ fn every_kind_of_mistake_is_found_by_a_check() {
         (&["TOLD_WIDTH=4"], "sensor/gives-the-frames", "expected 8×6"),
         (&["DEAF", "BLOCK"], "sensor/interrupt", "too slow"),
         (&["NAPS"], "sensor/interrupt", "the wait after an interrupt"),
-        (
-            &["NAPS"],
-            "sensor/keeps-deadlines",
-            "or longer in 8 of 10 calls, expected at most 55ms",
-        ),
-        (
-            &["WRIST_NAPS"],
-            "force/keeps-deadlines",
-            "or longer in 8 of 10 calls, expected at most 25ms",
-        ),
         (&["BLOCK"], "sensor/gives-the-frames", "too slow"),
         (&["OVERRUNS"], "sensor/writes-no-further", "it wrote beyond"),
         (
@@ -256,19 +250,46 @@ fn readings_with_one_number_are_found_frozen() {
     }
 }
 
-fn stamps_of_a_real_device_in_another_unit_or_of_another_clock_are_found() {
-    for (source, title, check) in [
-        (
+/// The fixture with a real sensor or transducer, by its `kind`, built with `macros`.
+fn real(kind: &str, macros: &[&str]) -> Option<Fixture> {
+    let (source, title) = match kind {
+        "sensor" => (
             "EYE_SOURCE=\"real\"",
             "title = \"an eye, by the manifest: words may differ\"",
-            "sensor/stamps-by-the-clock",
         ),
-        (
-            "WRIST_SOURCE=\"real\"",
-            "title = \"wrist\"",
-            "force/stamps-by-the-clock",
-        ),
+        _ => ("WRIST_SOURCE=\"real\"", "title = \"wrist\""),
+    };
+    let fixture = Fixture::built(&[&[source][..], macros].concat())?;
+    let [simulated, real] =
+        ["simulated", "real"].map(|source| format!("{title}\nsource = \"{source}\""));
+    Some(fixture.with_manifest(&simulated, &real))
+}
+
+fn calls_of_a_real_device_that_block_beyond_their_deadline_are_found() {
+    for (kind, macros, words) in [
+        ("sensor", &["UNIT_NS=1"][..], None),
+        ("sensor", &["UNIT_NS=1", "NAPS"], Some("at most 55ms")),
+        ("force", &["UNIT_NS=1"], None),
+        ("force", &["UNIT_NS=1", "WRIST_NAPS"], Some("at most 25ms")),
     ] {
+        let Some(fixture) = real(kind, macros) else {
+            return;
+        };
+        let results = checked(&fixture, &[&format!("{kind}/keeps-deadlines")]);
+        match (&results[0].outcome, words) {
+            (Outcome::Passed, None) => {}
+            (Outcome::Failed(why), Some(words)) => {
+                let words = format!("or longer in 8 of 10 calls, expected {words}");
+                assert!(why.contains(&words), "{words}: {why}");
+            }
+            (outcome, _) => panic!("{kind}, {macros:?}: {outcome:?}"),
+        }
+    }
+}
+
+fn stamps_of_a_real_device_in_another_unit_or_of_another_clock_are_found() {
+    for kind in ["sensor", "force"] {
+        let check = format!("{kind}/stamps-by-the-clock");
         for (macros, words) in [
             (&["UNIT_NS=1"][..], None),
             (
@@ -288,14 +309,11 @@ fn stamps_of_a_real_device_in_another_unit_or_of_another_clock_are_found() {
                 Some("correct the rate from which its driver computes them"),
             ),
         ] {
-            let Some(fixture) = Fixture::built(&[&[source][..], macros].concat()) else {
+            let Some(fixture) = real(kind, macros) else {
                 return;
             };
-            let [simulated, real] =
-                ["simulated", "real"].map(|source| format!("{title}\nsource = \"{source}\""));
-            let fixture = fixture.with_manifest(&simulated, &real);
             // A rate is compared for up to 6 s.
-            let results = checked_within(&fixture, &[check], Duration::from_secs(30));
+            let results = checked_within(&fixture, &[&check], Duration::from_secs(30));
             match (&results[0].outcome, words) {
                 (Outcome::Passed, None) => {}
                 (Outcome::Failed(why), Some(words)) => {
