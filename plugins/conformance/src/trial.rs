@@ -23,7 +23,7 @@ pub struct Trial {
     pub at_once: Duration,
     /// Time limit from an interrupt or a halt until the call in progress has returned.
     pub acts_within: Duration,
-    /// Time by which the third shortest of several calls may exceed its deadline, on the clock of this machine.
+    /// Time by which most of several short calls may exceed their deadline, on the clock of this machine.
     pub overrun: Duration,
     /// Distance that a robot moves away from the gel, mm.
     pub travel: Millimetre,
