@@ -182,7 +182,7 @@ pub(crate) fn keeps_deadlines<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Resul
     let most = SHORT + tried.trial.overrun;
     let mut shortest = Duration::MAX;
     for _ in 0..SERIES {
-        // A device that was late ten times in a row answers with an error, so each series opens it again.
+        // After ten late items in a row the host returns an error, so each series opens the device again.
         let mut device = started(tried)?;
         let (mut calls, mut late) = (0, 0);
         while calls < SHORT_CALLS && late < LATE_CALLS {
