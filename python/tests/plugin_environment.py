@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 # Number of tries of a check that fails with this text because of a measured time.
-TRIES, LATE = 6, "it took"
+TRIES, LATE = 6, " took "
 
 # Interpreters that may have the same compiled modules as this one.
 _CANDIDATES = ["/usr/bin/python3", "/usr/local/bin/python3"]

@@ -39,6 +39,7 @@ mod robot_watch;
 mod sample_timing;
 mod sensor;
 mod speed;
+mod stamp_age;
 mod stamp_rate;
 
 pub use bench::SimulatedBench;
@@ -60,4 +61,5 @@ pub use robot_watch::RobotWatch;
 pub use sample_timing::{SampleTiming, TimingError};
 pub use sensor::Sensor;
 pub use speed::{Speed, SpeedError};
+pub use stamp_age::StampAge;
 pub use stamp_rate::StampRate;

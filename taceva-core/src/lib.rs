@@ -54,7 +54,7 @@ pub use driver::{
     Axes, Axis, Changer, Deadline, Device, DriverError, DriverKind, EXPIRES, EnablingSwitch,
     ExpiringMotion, Fault, ForceTransducer, Guard, GuardedMotion, GuardedStop, Halt, Interrupt,
     Lighting, NotFinite, Robot, RobotWatch, SampleTiming, Sensor, SimulatedBench, Speed,
-    SpeedError, StampRate, Tare, TimingError, check_pose, check_wrench,
+    SpeedError, StampAge, StampRate, Tare, TimingError, check_pose, check_wrench,
 };
 pub use error::ErrorKind;
 pub use estimator_factory::{EstimatorFactory, FitRequest};

@@ -20,6 +20,7 @@ mod link;
 mod name_order;
 mod open_error;
 mod pace;
+mod plugin_remedy;
 #[cfg(unix)]
 mod port_user;
 #[cfg(all(any(feature = "gcode", feature = "hid", feature = "v4l2"), unix))]
@@ -44,6 +45,7 @@ pub use devices::{Devices, ListedArgument, ListedDevice, ListedDriver, ListedSwi
 pub use drivers::{Drivers, open};
 pub use open_error::OpenError;
 pub use pace::{Pace, RealPace, VirtualPace};
+pub use plugin_remedy::plugin_remedy;
 pub use selector::{Selector, SelectorError};
 pub use sensor::replay::{Replay, ReplayFactory, ReplayOptions};
 pub use source::{FolderSource, FrameSource, SourceError, Timing};

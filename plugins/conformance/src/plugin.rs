@@ -5,6 +5,7 @@
 //! to the process does not affect other checks. A trusted plugin is checked in an unconfined process, as in normal use.
 
 mod attempt;
+mod call_name;
 mod changer_table;
 mod clock;
 mod driver;
@@ -233,13 +234,13 @@ pub fn check(
     // First failed check by driver and cause, so each cause fails only one check.
     let mut causes: BTreeMap<(Option<String>, String), &'static str> = BTreeMap::new();
     let wanted: Vec<Check> = checks().into_iter().filter(is_wanted).collect();
-    let held = held_together(&examination, request, &wanted, plugin, begin);
     let mut hangs = Hangs::default();
+    let held = held_together(&examination, request, &wanted, plugin, &mut hangs, begin);
     for check in wanted {
         for key in subjects(&check, plugin) {
             let begun = Instant::now();
             let (mut outcome, took_s) = match held.get(&(key, check.name)) {
-                Some(took_s) => (Outcome::Passed, *took_s),
+                Some(held) => (held.outcome.clone(), held.took_s),
                 None => {
                     begin(check.name);
                     let probe = Probe::of(request, check.name, key);

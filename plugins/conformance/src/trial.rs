@@ -23,6 +23,8 @@ pub struct Trial {
     pub at_once: Duration,
     /// Time limit from an interrupt or a halt until the call in progress has returned.
     pub acts_within: Duration,
+    /// Time by which most of several short calls may exceed their deadline, on the clock of this machine.
+    pub overrun: Duration,
     /// Distance that a robot moves away from the gel, mm.
     pub travel: Millimetre,
     /// True if the trial may move robots and changers; otherwise promises with motions are skipped.
@@ -37,6 +39,7 @@ impl Trial {
             deadline: Deadline::after(Duration::from_secs(1)),
             at_once: Duration::from_millis(500),
             acts_within: Duration::from_millis(500),
+            overrun: Duration::from_millis(500),
             travel: Millimetre(0.5),
             moves: true,
         }
@@ -181,7 +184,7 @@ pub(crate) fn unopened(error: DriverError, is_real: bool) -> Unmet {
 /// Fails if the call described by `doing` took longer than `most`.
 pub(crate) fn was_within(doing: &str, took: Duration, most: Duration) -> Result<(), Unmet> {
     expect(took <= most, || {
-        format!("{doing} took {took:?}, expected at most {most:?}")
+        format!("{doing} took {took:.1?}, expected at most {most:?}")
     })
 }
 

@@ -32,15 +32,16 @@ pub(crate) fn findings(
         return json::write(&written, out);
     }
     for finding in findings {
-        writeln!(
+        write!(
             out,
             "{:<8} {:<28} {}",
             word(finding.state),
             finding.subject,
             finding.detail
         )?;
-        if let Some(remedy) = &finding.remedy {
-            writeln!(out, "         remedy: {remedy}")?;
+        match &finding.remedy {
+            Some(remedy) => writeln!(out, "; remedy: {remedy}")?,
+            None => writeln!(out)?,
         }
     }
     let count = |state| {
@@ -51,10 +52,10 @@ pub(crate) fn findings(
     };
     writeln!(
         out,
-        "{} good, {} absent, {} problems",
+        "{} good, {} absent, {}",
         count(State::Good),
         count(State::Absent),
-        count(State::Problem)
+        counted(count(State::Problem), "problem")
     )
 }
 
@@ -178,4 +179,29 @@ fn describe(argument: &ListedArgument, width: usize, out: &mut dyn Write) -> io:
     };
     let (key, takes, help) = (&argument.key, &argument.takes, &argument.help);
     writeln!(out, "    {key:<width$} {takes}{presence}: {help}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_problem_of_this_machine_is_one_line_with_its_remedy() {
+        let problem = Diagnosis {
+            code: "plugin-quarantined",
+            state: State::Problem,
+            subject: "org.example.x".to_owned(),
+            detail: "is in quarantine".to_owned(),
+            remedy: Some("`taceva plugin release org.example.x`".to_owned()),
+        };
+        let mut out = Vec::new();
+        findings(&[problem], ListFormat::Text, &mut out).expect("memory");
+        let text = String::from_utf8(out).expect("text");
+        let (line, counts) = text.split_once('\n').expect("two lines");
+        assert!(
+            line.ends_with("is in quarantine; remedy: `taceva plugin release org.example.x`"),
+            "{line}"
+        );
+        assert_eq!(counts, "0 good, 0 absent, 1 problem\n");
+    }
 }

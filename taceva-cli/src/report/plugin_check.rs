@@ -68,20 +68,21 @@ fn skips(results: &[CheckResult]) -> Vec<(&str, usize)> {
     skips
 }
 
-/// Writes the line of a check. A skipped check has no line, but counts in the reasons at the end.
+/// Writes the line of a check, with the reason of a failure. A skipped check has no line, but counts in the reasons at the end.
 pub(crate) fn line(result: &CheckResult, out: &mut dyn Write) -> io::Result<()> {
-    let subject = result.subject.as_deref().unwrap_or("");
-    let (word, why) = match &result.outcome {
-        Outcome::Passed => ("pass", ""),
-        Outcome::Failed(why) => ("FAIL", why.as_str()),
-        Outcome::Skipped(_) => return Ok(()),
-    };
     let (check, took) = (result.check, result.took_s);
-    writeln!(out, "{word}  {took:6.2}s  {check:<42} {subject}")?;
-    if !why.is_empty() {
-        writeln!(out, "               {why}")?;
+    let place = match &result.subject {
+        Some(subject) => format!("{check:<42} {subject}"),
+        None => check.to_owned(),
+    };
+    match &result.outcome {
+        Outcome::Passed => writeln!(out, "pass  {took:6.2}s  {place}"),
+        Outcome::Failed(why) => {
+            let why = why.trim().replace('\n', " / ");
+            writeln!(out, "FAIL  {took:6.2}s  {place}: {why}")
+        }
+        Outcome::Skipped(_) => Ok(()),
     }
-    Ok(())
 }
 
 #[derive(Serialize)]
@@ -106,6 +107,26 @@ mod tests {
             outcome,
             took_s: 0.25,
         }
+    }
+
+    #[test]
+    fn a_failed_check_is_one_line_with_its_subject_and_reason() {
+        let failed = CheckResult {
+            subject: Some("org.example.x/scale".to_owned()),
+            ..result(
+                "force/reads",
+                Outcome::Failed("NaN,\nexpected a number".to_owned()),
+            )
+        };
+        let mut out = Vec::new();
+        line(&failed, &mut out).expect("memory");
+        let text = String::from_utf8(out).expect("text");
+        assert_eq!(text.lines().count(), 1, "{text}");
+        assert!(text.starts_with("FAIL    0.25s  force/reads "), "{text}");
+        assert!(
+            text.ends_with(" org.example.x/scale: NaN, / expected a number\n"),
+            "{text}"
+        );
     }
 
     #[test]

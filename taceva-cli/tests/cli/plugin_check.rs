@@ -100,6 +100,34 @@ fn stamps_of_another_clock_are_a_problem_of_rig_check() {
 }
 
 #[test]
+fn a_plugin_that_crashes_in_rig_check_is_named_with_its_commands_and_no_cable_is_blamed() {
+    for crash in ["CRASHES", "OPEN_CRASHES"] {
+        let Some(bench) = with_real_plugin(&["UNIT_NS=1", crash]) else {
+            return;
+        };
+        let rig = "rig_version = 1\n[sensor]\ndriver = \"org.example.fixture/eye\"\n";
+        bench.write("first.toml", rig);
+        let checked = |expected: &[&str]| {
+            let ran = bench.run("rig check first.toml --plugin-dir plugins");
+            assert_eq!(ran.code, 1, "{crash}: {}{}", ran.out, ran.err);
+            for words in expected {
+                assert!(ran.out.contains(words), "{crash}, {words}: {}", ran.out);
+            }
+            assert!(!ran.out.contains("cable"), "{crash}: {}", ran.out);
+        };
+        checked(&[
+            "the plugin `org.example.fixture` is gone: its process was ended by signal 11",
+            "`taceva plugin check org.example.fixture`",
+            "`taceva plugin release org.example.fixture`",
+        ]);
+        checked(&[
+            "is in quarantine: its process was ended by signal 11",
+            "`taceva plugin release org.example.fixture` lets it start again",
+        ]);
+    }
+}
+
+#[test]
 fn stamps_of_a_real_plugin_in_microseconds_are_refused_by_rig_check_and_capture() {
     let Some(bench) = with_real_plugin(&["UNIT_NS=1000"]) else {
         return;

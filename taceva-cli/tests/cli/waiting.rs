@@ -8,6 +8,7 @@ mod plugin_allow;
 mod plugin_carousel;
 mod plugin_dmx;
 mod plugin_line;
+mod plugin_serial;
 mod practice;
 mod rig_check;
 mod rig_show;

@@ -43,6 +43,11 @@ impl StampRate {
         (RATE_MIN..=RATE_MAX).contains(&self.0)
     }
 
+    /// True for a rate that differs from 1 by at most `part`. For a measurement over several seconds, in which delays of samples hardly count.
+    pub fn is_exact_to(self, part: f64) -> bool {
+        (self.0 - 1.0).abs() <= part
+    }
+
     /// Mistaken and expected unit of the stamps in words; `None` if no mistaken unit leads to this rate.
     pub fn unit(self) -> Option<&'static str> {
         let is_near = |rate: f64| self.0 > rate / UNIT_FACTOR && self.0 < rate * UNIT_FACTOR;
@@ -58,12 +63,18 @@ impl StampRate {
 
 impl fmt::Display for StampRate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let advance = match self.is_of_host_clock() {
+            true => format!("{:.3}", self.0),
+            false => format!("{:.1e}", self.0),
+        };
         write!(
             f,
-            "the stamps advance by {:.1e} s in each second of this machine's clock, expected 1 s: ",
-            self.0
+            "the stamps advance by {advance} s in each second of this machine's clock, expected 1 s: "
         )?;
         match self.unit() {
+            _ if self.is_of_host_clock() => f.write_str(
+                "correct the rate from which its driver computes them, or stamp readings on arrival (`now_ns` in C, `now` in Rust and Python)",
+            ),
             Some(unit) => write!(
                 f,
                 "they are probably {unit}; convert them, or stamp with the clock of the host (`now_ns` in C, `now` in Rust and Python)"
@@ -177,6 +188,18 @@ mod tests {
             let rate = StampRate::of(stamps_s, 0.3);
             assert_eq!(rate.is_of_host_clock(), is_of_host, "{rate}");
         }
+    }
+
+    #[test]
+    fn a_rate_near_1_is_printed_with_three_decimals_and_a_remedy_for_the_driver() {
+        for (stamps_s, is_exact) in [(6.0, false), (4.1, false), (4.07, true), (3.93, true)] {
+            let rate = StampRate::of(stamps_s, 4.0);
+            assert_eq!(rate.is_exact_to(0.02), is_exact, "{rate}");
+        }
+        assert!(!StampRate::of(f64::NAN, 4.0).is_exact_to(0.02));
+        let fast = StampRate::of(6.0, 4.0).to_string();
+        assert!(fast.contains("by 1.500 s"), "{fast}");
+        assert!(fast.contains("correct the rate"), "{fast}");
     }
 
     #[test]

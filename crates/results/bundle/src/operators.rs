@@ -15,7 +15,8 @@ const OF_AUTHORS: [&str; 2] = ["card", "manifest"];
 /// Sentence on the operators that the copied files name; `None` without such names.
 pub(crate) fn note(inputs: &Inputs, written: &Writer<'_>) -> Option<String> {
     let names = names(inputs);
-    let has_name = |text: &str| names.iter().any(|name| has_word(text, name));
+    let forms: Vec<String> = names.iter().flat_map(|name| forms(name)).collect();
+    let has_name = |text: &str| forms.iter().any(|form| has_word(text, form));
     let mut files = Vec::new();
     for file in &written.files {
         if OF_AUTHORS.contains(&file.role.as_str()) || file.size > MOST_TEXT {
@@ -52,6 +53,29 @@ fn names(inputs: &Inputs) -> Vec<String> {
     )
 }
 
+/// Forms of a name in texts: plain, and with the escapes of JSON and TOML, of CSV, and of HTML.
+fn forms(name: &str) -> Vec<String> {
+    let json = serde_json::Value::from(name).to_string();
+    let json = json
+        .strip_prefix('"')
+        .and_then(|rest| rest.strip_suffix('"'));
+    let html = [
+        ('&', "&amp;"),
+        ('<', "&lt;"),
+        ('>', "&gt;"),
+        ('"', "&quot;"),
+    ];
+    let html = (html.iter()).fold(name.to_owned(), |text, (own, escaped)| {
+        text.replace(*own, escaped)
+    });
+    let escaped = [
+        json.unwrap_or(name).to_owned(),
+        name.replace('"', "\"\""),
+        html,
+    ];
+    distinct(std::iter::once(name.to_owned()).chain(escaped))
+}
+
 /// True if `word` is in `text` without letters or digits next to it.
 fn has_word(text: &str, word: &str) -> bool {
     let is_part = |letter: Option<char>| letter.is_some_and(char::is_alphanumeric);
@@ -74,6 +98,28 @@ fn name(text: &str, [table, key]: [&str; 2]) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_name_with_quotation_marks_and_backslashes_is_found_in_every_text() {
+        for name in ["Ann \"Al\" Lee", "lab\\ann", "O'Neil \"\\\"", "Lee & Lee"] {
+            let forms = forms(name);
+            let finds = |text: &str| forms.iter().any(|form| has_word(text, form));
+            let json = serde_json::json!({ "operator": name }).to_string();
+            let mut table = Table::new();
+            table.insert("operator".to_owned(), Value::String(name.to_owned()));
+            let toml = toml::to_string(&table).expect("a text");
+            let csv = format!("1,\"{}\",2", name.replace('"', "\"\""));
+            let html = format!(
+                "<td>{}</td>",
+                name.replace('&', "&amp;").replace('"', "&quot;")
+            );
+            for text in [name, &json, &toml, &csv, &html] {
+                assert!(finds(text), "{name}: {text}");
+            }
+            assert!(!finds("operator = \"Ann\""), "{name}");
+        }
+        assert_eq!(forms("Ann Lee"), ["Ann Lee"]);
+    }
 
     #[test]
     fn a_short_name_is_found_as_a_word_and_not_inside_another_word() {

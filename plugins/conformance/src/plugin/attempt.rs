@@ -1,7 +1,7 @@
 //! One attempt at a check, in a child with a time limit.
 
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use taceva_core::ErrorKind;
 use taceva_host::bare::CALL;
@@ -23,6 +23,14 @@ pub(super) struct Attempt {
     pub(super) outcome: Outcome,
     /// Plugin call that exceeded the time limit, after which the child was killed; `None` if no call did.
     pub(super) hung_in: Option<String>,
+    /// Time for which this call was pending.
+    pub(super) hung_for: Duration,
+}
+
+/// Pending call of a child, and the time at which the child named it.
+struct Pending {
+    call: String,
+    since: Instant,
 }
 
 impl From<Outcome> for Attempt {
@@ -30,18 +38,22 @@ impl From<Outcome> for Attempt {
         Attempt {
             outcome,
             hung_in: None,
+            hung_for: Duration::ZERO,
         }
     }
 }
 
 /// Runs the checks of `probe` in a child process, which is killed after `limit`.
 pub(super) fn attempt(examination: &Examination<'_>, probe: &Probe, limit: Duration) -> Attempt {
-    let call = Arc::new(Mutex::new(String::new()));
+    let pending = Arc::new(Mutex::new(Pending {
+        call: String::new(),
+        since: Instant::now(),
+    }));
     let order = ExaminationOrder {
         driver: &probe.driver,
         arguments: &probe.arguments,
         limit,
-        log: noting(&call),
+        log: noting(&pending),
     };
     let printed = examination.run(order, |arguments| {
         let probe = Probe {
@@ -62,8 +74,9 @@ pub(super) fn attempt(examination: &Examination<'_>, probe: &Probe, limit: Durat
             lacks_bound,
         }) => (error, withheld, lacks_bound),
     };
-    let call = call.lock().unwrap_or_else(PoisonError::into_inner);
-    let error = with_call(*error, &call);
+    let pending = pending.lock().unwrap_or_else(PoisonError::into_inner);
+    let hung_for = pending.since.elapsed();
+    let error = with_call(*error, &pending.call);
     let hung_in = call_of(&error);
     let outcome = ended(error);
     // A plugin may report a withheld resource as missing, which would not count as a failure.
@@ -81,15 +94,22 @@ pub(super) fn attempt(examination: &Examination<'_>, probe: &Probe, limit: Durat
         }
         Outcome::Passed => outcome,
     };
-    Attempt { outcome, hung_in }
+    Attempt {
+        outcome,
+        hung_in,
+        hung_for,
+    }
 }
 
-/// Creates a log that stores the name of the pending plugin call in `call`.
-fn noting(call: &Arc<Mutex<String>>) -> Log {
-    let call = Arc::clone(call);
+/// Creates a log that stores the pending plugin call in `pending`.
+fn noting(pending: &Arc<Mutex<Pending>>) -> Log {
+    let pending = Arc::clone(pending);
     Box::new(move |_, target, message| {
         if target == CALL {
-            message.clone_into(&mut call.lock().unwrap_or_else(PoisonError::into_inner));
+            *pending.lock().unwrap_or_else(PoisonError::into_inner) = Pending {
+                call: message.to_owned(),
+                since: Instant::now(),
+            };
         }
     })
 }

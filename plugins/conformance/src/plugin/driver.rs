@@ -11,12 +11,13 @@ use std::thread;
 use taceva_abi as abi;
 use taceva_core::{ArgKind, ArgValue, Args, DriverKind, ErrorKind};
 
+use super::call_name::OPENING;
 use super::subject::{Draw, Subject, bare, writable_memory};
 use super::{Check, Of};
 use crate::promise::{Unmet, broken, expect, refused, skipped};
 use taceva_host::Session;
 use taceva_host::bare::Opened;
-use taceva_host::bare::{ArgList, Taken, take};
+use taceva_host::bare::{ArgList, Taken, pending_call, take};
 
 const OF: Of = Of::Driver;
 
@@ -160,6 +161,7 @@ fn raw_open(
         handle: std::ptr::null_mut(),
         calls: std::ptr::null(),
     };
+    let opening = pending_call::begin(OPENING);
     // SAFETY: [any], with arguments, a rig, a place for the device and an error that outlive the call.
     let status = unsafe {
         open(
@@ -170,6 +172,7 @@ fn raw_open(
             error,
         )
     };
+    drop(opening);
     if status.is_ok() && !device.calls.is_null() {
         // SAFETY: after a success, the interface specifies the table, which outlives the device.
         if let Some(close) = unsafe { (*device.calls).close } {

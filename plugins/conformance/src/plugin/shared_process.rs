@@ -7,6 +7,8 @@ use taceva_core::DriverKey;
 use taceva_host::{Examination, Plugin};
 
 use super::attempt::attempt;
+use super::call_name::is_loading;
+use super::hangs::{FIRST, Hangs};
 use super::probe::{BETWEEN, Probe};
 use super::{Check, CheckRequest, subjects};
 use crate::report::Outcome;
@@ -26,16 +28,24 @@ const NAMES: [&str; 11] = [
     "estimator/predicts-in-threads",
 ];
 
-/// Time of each check that passed in a shared process, s, by subject and name. The time of the process is divided evenly among its checks. Checks
-/// that are missing here run separately, because a failure hides the results of the other checks.
-pub(super) type HeldTogether<'a> = BTreeMap<(Option<&'a DriverKey>, &'static str), f64>;
+/// Outcome of a check in a shared process, and its time, s.
+pub(super) struct Held {
+    pub(super) outcome: Outcome,
+    pub(super) took_s: f64,
+}
 
-/// Runs the checks of `wanted` that can share a process, in one process per subject. Calls `begin` with the names of these checks.
+/// Checks that passed in a shared process, by subject and name. The time of the process is divided evenly among its checks. Checks that are missing
+/// here run separately, because a failure hides the results of the other checks. If loading the plugin hung, the first check has this failure.
+pub(super) type HeldTogether<'a> = BTreeMap<(Option<&'a DriverKey>, &'static str), Held>;
+
+/// Runs the checks of `wanted` that can share a process, in one process per subject. Calls `begin` with the names of these checks. Adds a hang in
+/// loading the plugin to `hangs`.
 pub(super) fn held_together<'a>(
     examination: &Examination<'_>,
     request: &CheckRequest,
     wanted: &[Check],
     plugin: &'a Plugin,
+    hangs: &mut Hangs,
     begin: &mut dyn FnMut(&str),
 ) -> HeldTogether<'a> {
     let mut by_subject: BTreeMap<Option<&DriverKey>, Vec<&'static str>> = BTreeMap::new();
@@ -52,9 +62,24 @@ pub(super) fn held_together<'a>(
         let probe = Probe::of(request, &names.join(BETWEEN), key);
         begin(&names.join(", "));
         let begun = Instant::now();
-        if attempt(examination, &probe, request.limit).outcome == Outcome::Passed {
-            let took_s = (begun.elapsed() / count).as_secs_f64();
-            held.extend(names.into_iter().map(|name| ((key, name), took_s)));
+        let limit = match key {
+            None => request.limit.min(FIRST),
+            Some(_) => request.limit,
+        };
+        let tried = attempt(examination, &probe, limit);
+        let took = begun.elapsed();
+        if tried.outcome == Outcome::Passed {
+            let took_s = (took / count).as_secs_f64();
+            held.extend(names.into_iter().map(|name| {
+                let outcome = Outcome::Passed;
+                ((key, name), Held { outcome, took_s })
+            }));
+        } else if let Some(call) = tried.hung_in.filter(|call| is_loading(call)) {
+            hangs.note(&probe, call, names[0]);
+            let (outcome, took_s) = (tried.outcome, took.as_secs_f64());
+            held.insert((key, names[0]), Held { outcome, took_s });
+            // Every further check loads the plugin too.
+            break;
         }
     }
     held

@@ -6,11 +6,14 @@ use std::time::{Duration, Instant};
 use taceva_abi as abi;
 use taceva_core::{
     ArgError, Args, Deadline, Descriptor, DescriptorError, Device, DriverError, DriverKey,
-    DriverSource, Factory, Rig,
+    DriverKind, DriverSource, Factory, Rig,
 };
-use taceva_host::bare::{ArgList, Entry, Opened, RigHandle, Source, Table, call, open};
+use taceva_host::bare::{
+    ArgList, Entry, Opened, RigHandle, Source, Table, call, open, pending_call,
+};
 use taceva_host::{Failure, InProcess, Library, Manifest, Provided, Session};
 
+use super::call_name::LOADING;
 use super::probe::Probe;
 use super::surroundings::Surroundings;
 use crate::promise::{Kinded, Unmet, broken, skipped};
@@ -20,6 +23,8 @@ use crate::trial::{NO_DEVICE, Trial, Tried, unopened};
 pub(super) const PATIENT: Deadline = Deadline::after(Duration::from_secs(5));
 /// Time within which an interrupt or a halt must act.
 pub(super) const AT_ONCE: Duration = Duration::from_millis(50);
+/// Time by which a force reading may exceed its deadline. A guard waits 20 ms for a reading, and its turn may take 50 ms.
+pub(super) const OVERRUN: Duration = Duration::from_millis(20);
 /// Time limit of calls that should return at once, also on a busy machine.
 pub(super) const SOON: Duration = Duration::from_millis(500);
 
@@ -42,9 +47,11 @@ impl Subject {
     pub(super) fn new(source: Source, manifest: &Manifest, probe: Probe) -> Result<Subject, Unmet> {
         let failed = |error: &dyn std::fmt::Display| broken(error.to_string());
         let before = Surroundings::now();
+        let loading = pending_call::begin(LOADING);
         let library = source
             .load(Some(manifest), Box::new(|_, _, _| {}))
             .map_err(|error| failed(&error.problem()))?;
+        drop(loading);
         let session = InProcess::open(&library)?;
         let key = match probe.driver.as_str() {
             "" => None,
@@ -151,10 +158,17 @@ impl Subject {
             descriptor: self.descriptor()?,
             open,
         };
+        let overrun = match driver.descriptor.kind() {
+            // A simulated device has its own clock, and may compute for long.
+            _ if !self.is_real() => SOON,
+            DriverKind::Force => OVERRUN,
+            _ => AT_ONCE,
+        };
         let trial = Trial {
             deadline: PATIENT,
             at_once: SOON,
             acts_within: AT_ONCE,
+            overrun,
             moves: self.probe.moves || driver.descriptor.source() == DriverSource::Simulated,
             ..Trial::with_arguments(&*self.probe.arguments)
         };

@@ -10,6 +10,10 @@ use crate::fixture::{Fixture, cpp};
 use crate::runner::Test;
 
 fn checked(fixture: &Fixture, only: &[&str]) -> Vec<CheckResult> {
+    checked_within(fixture, only, Duration::from_secs(10))
+}
+
+fn checked_within(fixture: &Fixture, only: &[&str], limit: Duration) -> Vec<CheckResult> {
     let log = Arc::new(|_: &_, _, _: &str, _: &str| {});
     let host = PluginHost::with_children(
         fixture.found(),
@@ -19,7 +23,7 @@ fn checked(fixture: &Fixture, only: &[&str]) -> Vec<CheckResult> {
     );
     let request = CheckRequest {
         only: only.iter().map(|name| (*name).to_owned()).collect(),
-        limit: Duration::from_secs(10),
+        limit,
         ..CheckRequest::default()
     };
     let mut results = Vec::new();
@@ -78,12 +82,20 @@ pub(crate) const TESTS: &[Test] = &[
         checks_that_hang_in_the_call_of_an_earlier_one_are_skipped,
     ),
     (
+        "a_plugin_that_hangs_while_it_loads_fails_one_check_and_skips_all_others_at_once",
+        a_plugin_that_hangs_while_it_loads_fails_one_check_and_skips_all_others_at_once,
+    ),
+    (
         "readings_with_one_number_are_found_frozen",
         readings_with_one_number_are_found_frozen,
     ),
     (
-        "stamps_of_a_real_device_in_another_unit_are_found_with_that_unit",
-        stamps_of_a_real_device_in_another_unit_are_found_with_that_unit,
+        "calls_of_a_real_device_that_block_beyond_their_deadline_are_found",
+        calls_of_a_real_device_that_block_beyond_their_deadline_are_found,
+    ),
+    (
+        "stamps_of_a_real_device_in_another_unit_or_of_another_clock_are_found",
+        stamps_of_a_real_device_in_another_unit_or_of_another_clock_are_found,
     ),
     (
         "a_device_of_each_kind_in_cpp_keeps_every_promise",
@@ -121,7 +133,28 @@ fn checks_that_hang_in_the_call_of_an_earlier_one_are_skipped() {
     let why = "it did not open the device, as in `driver/opens`, which failed";
     let skipped = Outcome::Skipped(why.to_owned());
     let skipped = results.iter().filter(|result| result.outcome == skipped);
-    assert!(skipped.count() >= 2, "{results:#?}");
+    // No process is started for these checks.
+    let at_once = skipped.filter(|result| result.took_s < 1.0);
+    assert!(at_once.count() >= 2, "{results:#?}");
+}
+
+fn a_plugin_that_hangs_while_it_loads_fails_one_check_and_skips_all_others_at_once() {
+    let Some(fixture) = Fixture::built(&["INIT_HANGS"]) else {
+        return;
+    };
+    let results = checked(&fixture, &[]);
+    let (first, others) = results.split_first().expect("checks");
+    assert_eq!(first.check, "library/loads");
+    let why = "it did not load its library within 10s";
+    assert!(
+        matches!(&first.outcome, Outcome::Failed(found) if found.contains(why)),
+        "{first:?}"
+    );
+    let why = "it did not load its library, as in `library/loads`, which failed";
+    for result in others {
+        assert_eq!(result.outcome, Outcome::Skipped(why.to_owned()));
+        assert!(result.took_s < 1.0, "{result:?}");
+    }
 }
 
 fn every_kind_of_mistake_is_found_by_a_check() {
@@ -217,41 +250,83 @@ fn readings_with_one_number_are_found_frozen() {
     }
 }
 
-fn stamps_of_a_real_device_in_another_unit_are_found_with_that_unit() {
-    for (source, title, check) in [
-        (
+/// The fixture with a real sensor or transducer, by its `kind`, built with `macros`.
+fn real(kind: &str, macros: &[&str]) -> Option<Fixture> {
+    let (source, title) = match kind {
+        "sensor" => (
             "EYE_SOURCE=\"real\"",
             "title = \"an eye, by the manifest: words may differ\"",
-            "sensor/stamps-by-the-clock",
         ),
+        _ => ("WRIST_SOURCE=\"real\"", "title = \"wrist\""),
+    };
+    let fixture = Fixture::built(&[&[source][..], macros].concat())?;
+    let [simulated, real] =
+        ["simulated", "real"].map(|source| format!("{title}\nsource = \"{source}\""));
+    Some(fixture.with_manifest(&simulated, &real))
+}
+
+/// Asserts that a check of the real device `kind`, built with `macros`, passes, or that it fails with `words`.
+fn judges(kind: &str, check: &str, macros: &[&str], words: Option<&str>) {
+    let Some(fixture) = real(kind, macros) else {
+        return;
+    };
+    let check = format!("{kind}/{check}");
+    let results = checked_within(&fixture, &[&check], Duration::from_secs(30));
+    match (&results[0].outcome, words) {
+        (Outcome::Passed, None) => {}
+        (Outcome::Failed(why), Some(words)) => assert!(why.contains(words), "{words}: {why}"),
+        (outcome, _) => panic!("{check}, {macros:?}: {outcome:?}"),
+    }
+}
+
+fn calls_of_a_real_device_that_block_beyond_their_deadline_are_found() {
+    for (kind, macros, words) in [
+        ("sensor", &["UNIT_NS=1"][..], None),
         (
-            "WRIST_SOURCE=\"real\"",
-            "title = \"wrist\"",
-            "force/stamps-by-the-clock",
+            "sensor",
+            &["UNIT_NS=1", "NAPS"],
+            Some("a frame in 5ms took"),
+        ),
+        ("force", &["UNIT_NS=1"], None),
+        (
+            "force",
+            &["UNIT_NS=1", "WRIST_NAPS"],
+            Some("a reading in 5ms took"),
         ),
     ] {
-        for (unit, words) in [
-            ("UNIT_NS=1", None),
-            ("UNIT_NS=1000", Some("microseconds")),
-            ("UNIT_NS=1000000", Some("milliseconds")),
+        judges(kind, "keeps-deadlines", macros, words);
+    }
+}
+
+fn stamps_of_a_real_device_in_another_unit_or_of_another_clock_are_found() {
+    const CHECK: &str = "stamps-by-the-clock";
+    for kind in ["sensor", "force"] {
+        for (macros, words) in [
+            (&["UNIT_NS=1"][..], None),
+            (
+                &["UNIT_NS=1000"],
+                Some("they are probably microseconds where nanoseconds are expected"),
+            ),
+            (
+                &["UNIT_NS=1000000"],
+                Some("they are probably milliseconds where nanoseconds are expected"),
+            ),
+            (
+                &["UNIT_NS=1", "LAG_NS=-3600000000000"],
+                Some("s ahead of the clock of this machine"),
+            ),
         ] {
-            let Some(fixture) = Fixture::built(&[source, unit]) else {
-                return;
-            };
-            let [simulated, real] =
-                ["simulated", "real"].map(|source| format!("{title}\nsource = \"{source}\""));
-            let fixture = fixture.with_manifest(&simulated, &real);
-            let results = checked(&fixture, &[check]);
-            match (&results[0].outcome, words) {
-                (Outcome::Passed, None) => {}
-                (Outcome::Failed(why), Some(words)) => {
-                    let unit = format!("they are probably {words} where nanoseconds are expected");
-                    assert!(why.contains(&unit), "{unit}: {why}");
-                }
-                (outcome, _) => panic!("{check}, {unit}: {outcome:?}"),
-            }
+            judges(kind, CHECK, macros, words);
         }
     }
+    // A rate is compared for 6 s, and alike for both kinds.
+    let words = "correct the rate from which its driver computes them";
+    judges(
+        "sensor",
+        CHECK,
+        &["UNIT_NS=1", "STAMP_RATE=1.5"],
+        Some(words),
+    );
 }
 
 fn a_device_of_each_kind_in_cpp_keeps_every_promise() {

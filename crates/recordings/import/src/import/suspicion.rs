@@ -47,9 +47,18 @@ impl fmt::Display for Suspicion {
         write!(
             f,
             "{}: `{}` is {which} {} {}, unusual for a gel; are the numbers in {}{origin}?",
-            self.code, self.channel, self.magnitude, self.unit, self.perhaps
+            self.code,
+            self.channel,
+            three_digits(self.magnitude),
+            self.unit,
+            self.perhaps
         )
     }
+}
+
+/// Number nearest to `number` with three significant digits.
+fn three_digits(number: f64) -> f64 {
+    format!("{number:.2e}").parse().unwrap_or(number)
 }
 
 /// Minimum number of values for a check.
@@ -282,6 +291,18 @@ mod tests {
         assert!(place.ends_with(origin), "{place}");
         let force = said(&Channel::FZ, [900.0, 2_000.0, 4_100.0]).expect("no press is so hard");
         assert!(!force.contains(origin), "{force}");
+    }
+
+    #[test]
+    fn a_magnitude_is_printed_with_three_digits() {
+        let said = |values: [f64; 3]| {
+            let found = magnitude_suspicion(&Channel::FZ, values).expect("no press of a gel");
+            found.to_string()
+        };
+        let large = said([900.0, 2_034.567_890_123_4, 4_100.0]);
+        assert!(large.contains("`Fz` is typically 2030 N,"), "{large}");
+        let small = said([0.0009, 0.002, 0.004_123_456_789]);
+        assert!(small.contains("`Fz` is at most 0.00412 N,"), "{small}");
     }
 
     #[test]

@@ -2,11 +2,15 @@
 
 use std::time::Duration;
 
-use taceva_core::{Deadline, Descriptor, DriverError, EnablingSwitch, ErrorKind, Robot, Speed};
+use taceva_core::{
+    Deadline, Descriptor, DriverError, EnablingSwitch, ErrorKind, Robot, Speed, StampAge,
+};
 use taceva_drivers::{Drivers, MonotonicClock};
 use taceva_protocol::{Answer, Cancel, Operator, Question, RigFile};
 
-use super::listen::{LISTENED, listen_to_force, listen_to_robot, listen_to_sensor, without_answer};
+use super::listen::{
+    LISTENED, listen_to_force, listen_to_robot, listen_to_sensor, unopened, without_answer,
+};
 use super::problem::{HALT_MS, RigProblem};
 use super::stock::{Stock, TriedStock, take_stock};
 use super::stream::Stream;
@@ -31,8 +35,6 @@ const STALE_PERIODS: f64 = 3.0;
 const STALE_MS: f64 = 50.0;
 /// Minimum ratio of the stated noise to the measured noise.
 const NOISE_PART: f64 = 0.5;
-/// Greatest age of a reading on arrival, in ms, that a device and its link explain.
-const LATE_MAX_MS: f64 = 10_000.0;
 
 /// Result of checking a rig.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
@@ -114,9 +116,11 @@ impl RigCheck {
         let opener = FileOpener::new(rig, drivers);
         // The switch comes first: without it, no robot moves.
         let switch = self.of("switch", open_switch(rig, drivers)).flatten();
-        let sensor = self.of("sensor", opener.sensor()).flatten();
-        let robot = self.of("robot", opener.robot()).flatten();
-        let force = self.of("force", opener.force()).flatten();
+        let sensor = self
+            .of("sensor", opener.sensor().map_err(unopened))
+            .flatten();
+        let robot = self.of("robot", opener.robot().map_err(unopened)).flatten();
+        let force = self.of("force", opener.force().map_err(unopened)).flatten();
         for TriedStock { key, holds } in take_stock(rig, &opener) {
             if let Some(holds) = self.of(key, holds).flatten() {
                 self.changers.push(Stock { key, holds });
@@ -237,7 +241,7 @@ impl RigCheck {
         if heard.count == 0 {
             self.problems.push(RigProblem::Unheard { device });
         }
-        if heard.late_ms.abs() > LATE_MAX_MS {
+        if !StampAge::of(1e-3 * heard.late_ms).is_of_host_clock() {
             let late_ms = heard.late_ms;
             self.problems
                 .push(RigProblem::OtherClock { device, late_ms });

@@ -5,9 +5,10 @@ use std::time::Duration;
 use taceva_core::{
     Deadline, DriverError, ErrorKind, ForceTransducer, FrameMut, Pose, Robot, Sensor,
 };
-use taceva_drivers::MonotonicClock;
+use taceva_drivers::{MonotonicClock, OpenError, plugin_remedy};
 
 use super::stream::{Listener, Stream};
+use crate::error::AcquireError;
 
 /// Duration of the measurement of each device.
 pub(super) const LISTENED: Duration = Duration::from_secs(2);
@@ -18,12 +19,28 @@ const LOOK: Duration = Duration::from_millis(10);
 
 /// Message for an error of an open device, with its remedy.
 pub(super) fn without_answer(error: DriverError) -> String {
-    let remedy = match error.kind() {
+    let remedy = match (plugin_remedy(&error), error.kind()) {
+        (Some(remedy), _) => format!(" {remedy},"),
         // The device answers, and its message names the remedy.
-        ErrorKind::DeviceFault => "",
-        _ => " check its cable and power, and whether another program uses it,",
+        (None, ErrorKind::DeviceFault) => String::new(),
+        _ => " check its cable and power, and whether another program uses it,".to_owned(),
     };
     format!("{error};{remedy} then run `taceva rig check` again")
+}
+
+/// Message for a device that did not open, with the remedy if its plugin ended.
+pub(super) fn unopened(error: AcquireError) -> String {
+    let remedy = match &error {
+        AcquireError::OpenOfRig { source, .. } => match &**source {
+            OpenError::Device(cause) => plugin_remedy(cause),
+            _ => None,
+        },
+        _ => None,
+    };
+    match remedy {
+        Some(remedy) => format!("{error}; {remedy}, then run `taceva rig check` again"),
+        None => error.to_string(),
+    }
 }
 
 /// Calls `hear` repeatedly until the measurement ends.

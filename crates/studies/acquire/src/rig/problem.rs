@@ -2,6 +2,10 @@
 
 use std::fmt;
 
+use taceva_core::StampAge;
+
+use super::listen::LISTENED;
+
 /// Maximum time from a halt to a robot at rest, in ms. Plans have the same limit for a stated stop time.
 pub(super) const HALT_MS: f64 = 50.0;
 
@@ -77,7 +81,8 @@ impl fmt::Display for RigProblem {
             }
             RigProblem::Unheard { device } => write!(
                 f,
-                "the {device} sent no valid data: check its cable, its address in the rig file, and whether another program uses it; for a plugin, `taceva plugin check` prints its errors"
+                "the {device} sent no valid data in {} s: check its cable, its address in the rig file, and whether another program uses it; for a plugin, `taceva plugin check` prints its errors",
+                LISTENED.as_secs()
             ),
             RigProblem::Gaps { gap_ms, allowed_ms } => write!(
                 f,
@@ -92,12 +97,9 @@ impl fmt::Display for RigProblem {
                 "the {device} has noise of {measured:.4} {unit}, but its driver states {stated:.4} {unit}: presses may be halted without cause; check for vibration, changes of load and a mistaken unit",
                 unit = if *device == "force" { "N" } else { "mm" }
             ),
-            RigProblem::OtherClock { device, late_ms } => write!(
-                f,
-                "the {device} has stamps {:.0} s {} the clock of this machine, so they are of another clock: let its driver add the least difference between arrival and stamp, or stamp readings on arrival (`now_ns` in C, `now` in Rust and Python)",
-                1e-3 * late_ms.abs(),
-                if *late_ms < 0.0 { "ahead of" } else { "behind" }
-            ),
+            RigProblem::OtherClock { device, late_ms } => {
+                write!(f, "the {device} has {}", StampAge::of(1e-3 * late_ms))
+            }
             RigProblem::Untaught => f.write_str(
                 "`origin_mm` and `axes` of [robot] still have the values of a new file, and the robot may move down instead of up: run `taceva rig teach`",
             ),

@@ -95,7 +95,8 @@ fn a_scale_passes_its_suite(factory: &ScaleFactory) {
     assert_eq!(found.arguments, "usb=0922:8003;serial=EMU-1");
     let mut trial = Trial::with_arguments(found.arguments);
     // The emulated processor is slow.
-    (trial.deadline, trial.at_once) = (PATIENCE, Duration::from_secs(5));
+    let slow = Duration::from_secs(5);
+    (trial.deadline, trial.at_once, trial.overrun) = (PATIENCE, slow, slow);
     let report = conformance::force(factory, &trial);
     assert!(report.passed(), "{report}");
 }

@@ -37,7 +37,8 @@ fn in_the_machine() {
     its_bars_have_the_colours_of_the_standard();
     its_gain_is_fixed_and_read_back();
     let mut trial = Trial::with_arguments(ARGUMENTS);
-    (trial.deadline, trial.at_once) = (PATIENCE, Duration::from_secs(10));
+    let slow = Duration::from_secs(10);
+    (trial.deadline, trial.at_once, trial.overrun) = (PATIENCE, slow, slow);
     let report = conformance::sensor(&factory, &trial);
     assert!(report.passed(), "{report}");
     a_second_program_is_told_that_it_is_in_use();

@@ -8,7 +8,7 @@ use taceva_core::{
     Axes, Deadline, DriverError, DriverKey, ErrorKind, ForceTransducer, Progress, Stamp, Tare,
     Wrench,
 };
-use taceva_drivers::MonotonicClock;
+use taceva_drivers::{MonotonicClock, plugin_remedy};
 use taceva_protocol::{Event, Observation, SharedSupervisor};
 
 use super::halts;
@@ -94,8 +94,10 @@ pub(super) struct Listeners<'a> {
 impl Listeners<'_> {
     /// Informs an operator who is being asked a question that the force is lost.
     fn lose(&self, error: &DriverError) {
+        let remedy = plugin_remedy(error)
+            .unwrap_or_else(|| "check cable and power of the transducer".to_owned());
         let words = format!(
-            "the force is lost: {error}; the robot stays halted: stop, check cable and power of the transducer, and continue with `--resume`"
+            "the force is lost: {error}; the robot stays halted: stop, {remedy}, and continue with `--resume`"
         );
         self.progress.remark(&words);
         if let Some(viewer) = self.viewer {
