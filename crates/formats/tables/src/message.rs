@@ -26,7 +26,8 @@ pub(crate) struct Channel {
     pub(crate) count: u64,
 }
 
-/// Time and location of a message: the offset of its chunk or page (`None` if the message is directly in the file), and its own offset.
+/// Time and location of a message. `chunk` is the offset of its chunk or the number of its page, `None` for the file itself. `at` is an offset, or
+/// the number of a cell in a page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Entry {
     pub(crate) log_time: u64,
