@@ -1,4 +1,4 @@
-//! Tests of rosbag2 databases and ROS 1 bags: every message as given to the program that wrote it (`tests/data/bags/make.py`).
+//! Tests of rosbag2 databases and ROS 1 bags: every message must equal the message that `tests/data/bags/make.py` wrote.
 
 use std::fs;
 use std::path::{Path, PathBuf};
