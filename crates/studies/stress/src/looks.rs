@@ -1,4 +1,4 @@
-//! Checks of a recording, made on its pictures with a fault.
+//! Checks of a recording, applied to its pictures with a fault.
 
 use std::collections::BTreeSet;
 
@@ -7,7 +7,7 @@ use taceva_core::Frame;
 use taceva_core::random::fnv_1a;
 use taceva_dataset::Dataset;
 
-/// Statistics of a picture, which checks read.
+/// Statistics of a picture that the checks of a recording use.
 #[derive(Clone, Debug)]
 pub(crate) struct Look {
     facts: FrameFacts,

@@ -34,7 +34,7 @@ fn numbers(column: &[Cell]) -> Vec<f64> {
     column.iter().map(number).collect()
 }
 
-/// Reads all of `file` up to the first error.
+/// Reads all messages of the recording at `path`, up to the first error.
 fn read_all(path: &Path) -> Result<usize, TableError> {
     let recording = Recording::open(path)?;
     let mut cells = 0;
