@@ -11,12 +11,12 @@ use taceva_dataset::Dataset;
 #[derive(Clone, Debug)]
 pub(crate) struct Look {
     facts: FrameFacts,
-    /// Hash of the bytes.
+    /// Hash of the bytes of the picture, which finds repeated pictures.
     hash: u64,
 }
 
 impl Look {
-    /// Statistics of `frame`, compared with the untouched picture.
+    /// Statistics of `frame`, also relative to the untouched picture `reference`, if any.
     pub(crate) fn of(frame: &Frame, reference: Option<&Frame>) -> Look {
         Look {
             facts: FrameFacts::without_tiles(frame, reference),
@@ -25,7 +25,7 @@ impl Look {
     }
 }
 
-/// Codes of the checks that find something in `looks`, the pictures of `rows` in order.
+/// Codes of the checks of a recording that find something in `looks`, the statistics of the pictures of `rows`.
 pub(crate) fn codes<'l>(
     dataset: &Dataset,
     rows: &[usize],
