@@ -14,11 +14,11 @@ const END_64: u32 = 0x0606_4b50;
 const END_64_LOCATOR: u32 = 0x0706_4b50;
 const ENTRY: u32 = 0x0201_4b50;
 const LOCAL: u32 = 0x0403_4b50;
-/// Length of the end record without its comment, bytes.
+/// Length of the end record of a zip archive without its comment, bytes.
 const END_BYTES: u64 = 22;
 /// Maximum length of the comment of an archive, bytes.
 const COMMENT_BYTES: u64 = 65_535;
-/// Value of a 32-bit or 16-bit field whose number is in the zip64 fields instead.
+/// Value of a 32-bit field (`ELSEWHERE_16` for 16 bits) whose number is stored in the zip64 fields instead.
 const ELSEWHERE: u64 = 0xffff_ffff;
 const ELSEWHERE_16: u64 = 0xffff;
 
@@ -120,7 +120,7 @@ fn directory(archive: &dyn ByteSource) -> Result<Directory, Problem> {
     Ok(found)
 }
 
-/// Parses one entry of the directory. Returns the entry, with the offset of its local header, and the remaining bytes; `None` for a folder.
+/// Parses one entry at offset `at` of the directory. Returns the member, `None` for a folder, and the remaining bytes.
 fn entry(rest: &[u8], at: u64) -> Result<(Option<Packed>, &[u8]), Problem> {
     let cut = || Problem::damaged(at, "the end of the directory", "an entry");
     if number(rest, 0, 4).ok_or_else(cut)? != u64::from(ENTRY) {
@@ -226,7 +226,7 @@ fn extra_field(mut extra: &[u8], wanted: u64) -> Option<&[u8]> {
     }
 }
 
-/// Little-endian number of up to 8 bytes.
+/// Little-endian number of `length` bytes, at most 8, at offset `at`; `None` if they exceed `bytes`.
 fn number(bytes: &[u8], at: usize, length: usize) -> Option<u64> {
     let bytes = bytes.get(at..at + length)?;
     Some(

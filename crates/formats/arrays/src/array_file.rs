@@ -102,7 +102,7 @@ impl ArrayFile {
     ///
     /// An `.npy` file has one array, `value`. An `.npz` file has the names of its members without `.npy`. HDF5 and zarr have full paths
     /// (`/group/frames`). A MATLAB file has its variables. A pickle has `value`, or the keys of its dictionary or of the dictionaries in its
-    /// list. Records have one name for each field, after a dot: `/table.Fx`.
+    /// list. An array of records has one name for each field, after a dot: `/table.Fx`.
     #[must_use]
     pub fn names(&self) -> Vec<String> {
         self.arrays.iter().map(|(name, _)| name.clone()).collect()
@@ -150,8 +150,8 @@ impl ArrayFile {
         found.copied()
     }
 
-    /// Full names of the groups of HDF5 and zarr that match `pattern`, sorted by name. `*` matches any characters except `/`. Dictionaries within the
-    /// dictionary of a pickle are also groups, after dots: `trajectories.*`.
+    /// Full names of the groups of an HDF5 or zarr file that match `pattern`, sorted by name. `*` matches any characters except `/`. Dictionaries
+    /// within the dictionary of a pickle are also groups, after dots: `trajectories.*`.
     #[must_use]
     pub fn groups(&self, pattern: &str) -> Vec<String> {
         let mut groups = self.store.groups();
@@ -248,7 +248,7 @@ impl ArrayFile {
         self.store.attribute(owner, name)
     }
 
-    /// Reads rows of the first axis, in the byte order of this machine and in C order. A single number is one row.
+    /// Reads rows of the first axis, in the byte order of this machine and in C order. An array of a single number has one row.
     ///
     /// # Errors
     /// [`ArrayError`] if the array or a row does not exist, the rows need more than 1 GiB, or the file is damaged there.

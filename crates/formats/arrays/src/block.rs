@@ -22,7 +22,7 @@ pub(crate) struct Block {
 }
 
 impl Block {
-    /// Elements that begin at byte `at` of the source. Rejects elements beyond the end of the source.
+    /// Describes elements that begin at byte `at` of `source`. Rejects elements beyond the end of the source.
     pub(crate) fn new(
         source: Arc<dyn ByteSource>,
         at: u64,

@@ -1,4 +1,4 @@
-//! Types of elements of an array, as stated in its file.
+//! Element types and shapes of arrays, as stated in the file.
 
 /// Type of the elements of an array. Widths are in bits.
 ///

@@ -66,7 +66,7 @@ pub(crate) struct Listed {
     pub(crate) row_bytes: u64,
 }
 
-/// Dataset whose structures are parsed.
+/// Dataset after its structures were parsed.
 #[derive(Debug)]
 struct Opened {
     dataset: Dataset,
@@ -138,7 +138,7 @@ impl Hdf5 {
         Ok(opened)
     }
 
-    /// Opens the dataset with this index. Also returns the size of its chunks in memory, bytes.
+    /// Opens the dataset with the index `index`. Also returns the size of its chunks in memory, bytes.
     fn open_dataset(&self, index: usize) -> Result<(Opened, u64), Problem> {
         let listed = &self.datasets[index];
         let dataset = self.file.dataset(&listed.path).map_err(problem)?;
@@ -206,7 +206,8 @@ impl Hdf5 {
         }
     }
 
-    /// Adds a dataset to the unpacked size of the file: the larger of `chunks` (bytes of unpacked chunks) and the size of all rows.
+    /// Adds the dataset `index` to the unpacked size of the file. The dataset counts with the larger of `chunks` (bytes of its unpacked chunks) and
+    /// all its rows.
     fn take_unpacked(&self, index: usize, chunks: u64) -> Result<(), Problem> {
         let listed = &self.datasets[index];
         let rows = listed.shape.first().copied().unwrap_or(1);
@@ -214,7 +215,7 @@ impl Hdf5 {
         self.unpacked.take(index, bytes, self.bytes.length())
     }
 
-    /// Bytes of `rows` after all filters are reversed.
+    /// Bytes of `rows` of the dataset `index`, after all filters are reversed.
     pub(crate) fn raw_rows(&self, index: usize, rows: Range<u64>) -> Result<Vec<u8>, Problem> {
         let row_bytes = self.datasets[index].row_bytes;
         let count = rows.end - rows.start;
@@ -329,14 +330,14 @@ impl Store for Hdf5 {
     }
 }
 
-/// Size of a block, bytes; `None` if it exceeds 64 bits.
+/// Size of a block with the lengths `sides` and items of `item_bytes` bytes, in bytes; `None` if it exceeds 64 bits.
 pub(crate) fn product(sides: &[u64], item_bytes: u64) -> Option<u64> {
     sides
         .iter()
         .try_fold(item_bytes, |bytes, side| bytes.checked_mul(*side))
 }
 
-/// Converts an error of `hdf5-pure`. Adds a remedy if one is known.
+/// Converts an error of the crate `hdf5-pure`. Adds a remedy if one is known.
 pub(crate) fn problem(error: hdf5_pure::Error) -> Problem {
     use hdf5_pure::Error;
     match error {

@@ -46,7 +46,7 @@ pub(crate) fn inflated(
     }
 }
 
-/// Inflates at most `most` bytes of unknown length. Also returns the number of consumed packed bytes.
+/// Inflates a stream of unknown inflated length. Fails if this length exceeds `most` bytes. Also returns the number of consumed packed bytes.
 pub(crate) fn inflated_at_most(
     packed: &[u8],
     most: usize,
@@ -110,7 +110,7 @@ impl Inflater {
         }
     }
 
-    /// Fills `into` with the next bytes. Returns fewer bytes only at the end.
+    /// Fills `into` with the next inflated bytes. Returns fewer bytes only at the end of the stream.
     pub(crate) fn read(
         &mut self,
         source: &dyn ByteSource,
@@ -130,7 +130,7 @@ impl Inflater {
         Ok(filled)
     }
 
-    /// Inflates until the window contains bytes. Returns false at the end.
+    /// Inflates until the window contains bytes. Returns false at the end of the stream.
     fn step(&mut self, source: &dyn ByteSource) -> Result<bool, Problem> {
         while !self.is_done {
             if self.used == self.input.len() && self.next < self.from.end {

@@ -8,9 +8,9 @@ pub(crate) const NPY_HEADER_BYTES: u64 = 1 << 20;
 pub(crate) const LITERAL_DEPTH: usize = 16;
 /// Maximum number of axes. NumPy has at most 64, HDF5 at most 32.
 pub(crate) const AXES: usize = 64;
-/// Size of the blocks in which column-major rows are transposed, bytes.
+/// Size of the blocks in which rows of column-major arrays are transposed, bytes.
 pub(crate) const TURNED_BYTES: u64 = 64 << 20;
-/// Maximum number of arrays of a file, groups of a file, and members of an archive.
+/// Maximum number of arrays of a file. The same limit holds for groups of a file and members of an archive.
 pub(crate) const ARRAYS: u64 = 1 << 16;
 /// Maximum size of one element (a fixed-length text or a record), bytes.
 #[cfg(feature = "hdf5")]
@@ -31,9 +31,9 @@ pub(crate) const PICKLE_DEPTH: usize = 64;
 pub(crate) const DIRECTORY_BYTES: u64 = 64 << 20;
 /// Maximum compression ratio that deflate can reach.
 pub(crate) const DEFLATE_RATIO: u64 = 1_032;
-/// Compression ratio above which a member is inflated only up to `INFLATED_BYTES`.
+/// Compression ratio above which a member of an archive is inflated only up to `INFLATED_BYTES`.
 pub(crate) const USUAL_RATIO: u64 = 200;
-/// Maximum inflated size of a member above `USUAL_RATIO`, bytes. Reading any small file thus takes at most 300 MB of memory and 20 s.
+/// Maximum inflated size of a member with a ratio above `USUAL_RATIO`, bytes. Reading any small file thus takes at most 300 MB of memory and 20 s.
 pub(crate) const INFLATED_BYTES: u64 = 128 << 20;
 /// Maximum size of members and variables of one file that are inflated as a whole and kept in memory, bytes.
 pub(crate) const HELD_BYTES: u64 = 64 << 20;

@@ -26,10 +26,10 @@ use element::{Place, TYPE_COMPRESSED, TYPE_MATRIX};
 use variable::Variable;
 use variables::Found;
 
-/// Size of the header, bytes: 116 of text, 8 of an offset, the version, and the byte order.
+/// Size of the header of version 5, bytes: 116 of text, 8 of an offset, 2 of the version, and 2 of the byte order.
 const HEADER_BYTES: u64 = 128;
 
-/// Opens a file of either version.
+/// Opens a MATLAB file of version 5 or 7.3.
 pub(crate) fn open(file: FileBytes) -> Result<Box<dyn Store>, Problem> {
     let header = bytes_of(&file, 0, file.length().min(HEADER_BYTES))?;
     let is_hdf5 = header.starts_with(b"MATLAB 7.3") || header.starts_with(b"\x89HDF");
@@ -56,7 +56,7 @@ pub(crate) fn open(file: FileBytes) -> Result<Box<dyn Store>, Problem> {
     Ok(Box::new(Matlab5::open(Arc::new(file), is_big_endian)?))
 }
 
-/// File of version 5.
+/// MATLAB file of version 5.
 #[derive(Debug)]
 struct Matlab5 {
     variables: Vec<(String, Variable)>,

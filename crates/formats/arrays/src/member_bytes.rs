@@ -12,16 +12,16 @@ use crate::limits;
 use crate::scalar::shown;
 use crate::source::{ByteSource, FileBytes, bytes_of};
 
-/// Number of bytes processed at once when checksums are computed and bytes are skipped.
+/// Number of bytes of a member that are processed at once to compute a checksum or to skip bytes.
 const PIECE_BYTES: u64 = 1 << 20;
-/// Size of the beginning of a member that nearly always contains the header, bytes. Listing arrays inflates only this part.
+/// Number of inflated bytes at the beginning of a member, which nearly always contain its header. Listing arrays inflates only these bytes.
 const BEGINNING_BYTES: u64 = 4 << 10;
 
 /// Location of packed bytes.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Packed {
     pub(crate) name: String,
-    /// Container of the deflated bytes; `None` if the bytes are stored.
+    /// Container of the deflated bytes; `None` for bytes stored without compression.
     pub(crate) wrapping: Option<Wrapping>,
     /// Checksum of the unpacked bytes; `None` if the file states none.
     pub(crate) crc32: Option<u32>,
@@ -76,7 +76,7 @@ impl Packed {
     }
 }
 
-/// Number of inflated bytes of one file that are kept in memory.
+/// Number of inflated bytes of a file that are already kept in memory.
 #[derive(Debug, Default)]
 pub(crate) struct Budget {
     held_bytes: u64,
@@ -94,8 +94,8 @@ impl Budget {
 /// Unpacked bytes of a member.
 ///
 /// Stored bytes are read in place, after their checksum is verified. Deflated members are inflated as a whole and kept in memory if together they
-/// take at most 64 MiB. Inflation of larger members continues after the rows read last, or restarts at the beginning for earlier rows. Their checksum
-/// is verified when the last byte is reached.
+/// take at most 64 MiB. A larger member is inflated up to the requested rows. A later request continues there, or restarts at the beginning for
+/// earlier rows. Their checksum is verified when the last byte is reached.
 #[derive(Debug)]
 pub(crate) struct PackedBytes {
     file: Arc<FileBytes>,
@@ -110,7 +110,7 @@ pub(crate) struct PackedBytes {
 #[derive(Debug)]
 enum Read {
     Nothing,
-    /// Stored, with a verified checksum.
+    /// Bytes stored without compression, whose checksum is verified.
     Checked,
     Whole(Arc<Vec<u8>>),
     Part(Box<Part>),
@@ -176,7 +176,7 @@ impl PackedBytes {
         }
     }
 
-    /// Ends the reading of headers, during which only the beginning of a member is read.
+    /// Ends the reading of headers. Before this call, only the beginning of a member is read.
     pub(crate) fn end_listing(&self) {
         self.is_listed.store(true, Ordering::Relaxed);
     }

@@ -18,7 +18,7 @@ const MAGIC: &[u8; 6] = b"\x93NUMPY";
 /// NumPy array in any source of bytes.
 #[derive(Debug)]
 pub(crate) struct NpyArray {
-    /// Name of the array; empty for a file with only this array.
+    /// Name of the array in an archive; empty in an `.npy` file.
     name: String,
     content: Content,
 }

@@ -13,7 +13,7 @@ use crate::source::{ByteSource, FileBytes};
 use crate::store::{Arrays, Store};
 use crate::values::ArrayData;
 
-/// Arrays of an archive.
+/// Arrays of an `.npz` archive.
 #[derive(Debug)]
 pub(crate) struct Npz {
     arrays: Vec<NpyArray>,

@@ -7,19 +7,18 @@ use crate::error::Problem;
 use crate::limits;
 use crate::source::{ByteSource, bytes_of};
 
-/// Number of bytes read at once from short columns.
+/// Number of bytes read at once if columns are shorter.
 const PIECE_BYTES: u64 = 1 << 20;
 
 /// Transposed rows, and their range.
 type Turned = (Range<u64>, Arc<Vec<u8>>);
 
-/// Array whose first axis varies fastest. Rows are transposed in blocks of up to 64 MiB. The last block is cached, so reading row after row reads the file once
-/// for every 64 MiB.
+/// Range of rows, and their transposed bytes.
 #[derive(Debug)]
 pub(crate) struct ColumnMajor {
     rows: u64,
     item_bytes: u64,
-    /// Lengths of the axes after the first.
+    /// Lengths of all axes except the first.
     rest: Vec<u64>,
     row_elements: u64,
     data_at: u64,
@@ -27,7 +26,7 @@ pub(crate) struct ColumnMajor {
 }
 
 impl ColumnMajor {
-    /// Array whose bytes begin at `data_at`. The caller has checked the sizes against the source.
+    /// Describes an array whose bytes begin at `data_at`. The caller has checked the sizes against the source.
     pub(crate) fn new(shape: &[u64], item_bytes: u64, data_at: u64) -> ColumnMajor {
         let rest = shape.get(1..).unwrap_or(&[]).to_vec();
         ColumnMajor {
@@ -119,7 +118,7 @@ impl ColumnMajor {
     }
 }
 
-/// Transposes a block whose axes are in the order `order` to the order of `sides`.
+/// Transposes a block to C order. `order` lists its axes from slowest to fastest, and `sides` has their lengths by axis number.
 pub(crate) fn c_order(
     block: &[u8],
     sides: &[u64],
@@ -155,13 +154,13 @@ pub(crate) fn c_order(
     Ok(turned)
 }
 
-/// Index in C order of each element in column-major order. The caller has checked the sides.
+/// Index in C order of each element of an array with the lengths `sides`, in column-major order. The caller has checked `sides`.
 pub(crate) fn c_places(sides: &[u64]) -> impl Iterator<Item = usize> {
     let mut places = Places::new(sides);
     std::iter::repeat_with(move || places.next_place())
 }
 
-/// Strides along each axis of a block in C order, bytes, for elements of `item_bytes`.
+/// Stride along each axis of a C-order block with the lengths `sides`, in the unit of `item_bytes`, the size of an element.
 pub(crate) fn strides(sides: &[u64], item_bytes: usize) -> Vec<usize> {
     let mut strides = vec![item_bytes; sides.len()];
     for axis in (1..sides.len()).rev() {
@@ -170,7 +169,7 @@ pub(crate) fn strides(sides: &[u64], item_bytes: usize) -> Vec<usize> {
     strides
 }
 
-/// Iterator over the index of each column (second axis fastest) within a row in C order.
+/// Iterator over the elements of a row in column-major order (second axis of the array fastest). Yields their indices in C order.
 struct Places {
     sides: Vec<u64>,
     strides: Vec<usize>,
@@ -188,7 +187,7 @@ impl Places {
         }
     }
 
-    /// Index of the next column, in elements.
+    /// Index of the next element within the row, in C order.
     fn next_place(&mut self) -> usize {
         let here = self.place;
         for axis in 0..self.sides.len() {

@@ -10,7 +10,7 @@ pub(crate) fn matches(pattern: &str, name: &str) -> bool {
     is_alike && parts.next().is_none()
 }
 
-/// Matches one part of a name. The texts between stars are searched from left to right.
+/// True if `part`, a name between slashes, matches `pattern`. The texts between the stars of the pattern are searched from left to right.
 fn part_matches(pattern: &str, part: &str) -> bool {
     if part.is_empty() {
         return pattern.is_empty();

@@ -186,7 +186,7 @@ impl Store for Pickle {
         &self.refused
     }
 
-    /// Dictionaries within the dictionary, by the path of their keys: `trajectories.0`.
+    /// Paths of the dictionaries within the dictionary of the pickle, by their keys: `trajectories.0`.
     fn groups(&self) -> Vec<String> {
         let mut groups = std::collections::BTreeSet::new();
         for (name, ..) in &self.columns {

@@ -26,7 +26,7 @@ pub(crate) enum Kind {
     HeapBytes,
 }
 
-/// Padding of a text in a longer field.
+/// Padding after a text that is shorter than its field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(
     not(feature = "hdf5"),
@@ -48,7 +48,7 @@ pub(crate) struct Scalar {
 }
 
 impl Scalar {
-    /// Scalar type; `None` if the kind does not exist in this length.
+    /// Scalar type of `bytes` bytes; `None` if the kind does not exist in this length.
     pub(crate) fn new(kind: Kind, bytes: usize, is_big_endian: bool) -> Option<Scalar> {
         let is_known = match kind {
             Kind::Bool => bytes == 1,
@@ -110,7 +110,7 @@ impl Scalar {
             .ok_or_else(|| unknown("expected one of b1, u1 to u8, i1 to i8, f2 to f8, S and U"))
     }
 
-    /// Size of one element, bytes.
+    /// Size of one element of this type, bytes.
     pub(crate) fn bytes(self) -> usize {
         self.bytes
     }
@@ -147,7 +147,7 @@ impl Scalar {
             .then(|| self.in_order(kept))
     }
 
-    /// Bytes of a floating-point number of 32 or 64 bits; `None` for other types.
+    /// Encodes a floating-point number in 32 or 64 bits; `None` for other types.
     pub(crate) fn encode_float(self, number: f64) -> Option<Vec<u8>> {
         match (self.kind, self.bytes) {
             #[expect(

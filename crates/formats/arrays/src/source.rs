@@ -10,7 +10,7 @@ use crate::limits;
 
 /// Source of bytes with a known length. Threads may read at any offset.
 pub(crate) trait ByteSource: std::fmt::Debug + Send + Sync {
-    /// Length, bytes.
+    /// Length of the source, bytes.
     fn length(&self) -> u64;
 
     /// Fills `into` with the bytes from offset `at`. The caller has checked the range.

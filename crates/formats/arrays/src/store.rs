@@ -1,4 +1,4 @@
-//! Interface of all formats: a list of arrays, and access to the rows of each array.
+//! Interface of an open file in any format: a list of arrays, and access to the rows of each array.
 
 use std::ops::Range;
 
@@ -19,12 +19,12 @@ pub(crate) trait Store: std::fmt::Debug + Send + Sync {
         &[]
     }
 
-    /// Dead links, each with its problem.
+    /// Links whose target cannot be read, each with the reason.
     fn nowhere(&self) -> &[(String, Problem)] {
         &[]
     }
 
-    /// Problem of a name that is a link to another place; `None` for other names.
+    /// Error for a name that is a link to another place; `None` for other names.
     fn link(&self, _name: &str) -> Option<Problem> {
         None
     }
@@ -44,16 +44,16 @@ pub(crate) trait Store: std::fmt::Debug + Send + Sync {
         None
     }
 
-    /// Number of chunks of the array at `index` that were never written. Their elements are the fill value.
+    /// Number of chunks of the array at `index` that the file does not contain. Their elements are read as the fill value.
     fn absent_chunks(&self, _index: usize) -> Result<u64, Problem> {
         Ok(0)
     }
 
-    /// Reads rows of the array at `index`. The caller has checked the rows against the shape and the limits.
+    /// Reads `rows` of the first axis of the array at `index`. The caller has checked the rows against the shape and the limits.
     fn read(&self, index: usize, rows: Range<u64>) -> Result<ArrayData, Problem>;
 }
 
-/// Number of chunks of an array; the maximum of 64 bits on overflow.
+/// Number of chunks of the lengths `chunk` in an array; [`u64::MAX`] on overflow.
 pub(crate) fn chunks_of(shape: &[u64], chunk: &[u64]) -> u64 {
     let sides = shape.iter().zip(chunk);
     sides.fold(1, |all: u64, (side, chunk)| {

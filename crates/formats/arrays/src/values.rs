@@ -20,7 +20,7 @@ mod conversion;
 pub struct ArrayData {
     /// Lengths of the axes. The first is the number of rows read. Empty for a single number.
     pub shape: Vec<u64>,
-    /// Elements. Their number is the product of the lengths in `shape`.
+    /// Elements of these rows. Their number is the product of the lengths in `shape`.
     pub values: ArrayValues,
 }
 
@@ -91,7 +91,7 @@ impl ArrayValues {
         self.len() == 0
     }
 
-    /// Every `step`-th element from `first` on.
+    /// Keeps every `step`-th element, beginning with the index `first`.
     #[cfg(feature = "hdf5")]
     pub(crate) fn every(self, first: usize, step: usize) -> ArrayValues {
         fn of<T>(all: Vec<T>, first: usize, step: usize) -> Vec<T> {
@@ -148,7 +148,7 @@ impl ArrayValues {
     }
 }
 
-/// Whole number as `f64`; `None` if the conversion is not exact.
+/// Integer `number` as `f64`; `None` if the conversion is not exact.
 fn exact(number: i128) -> Option<f64> {
     let near = number as f64;
     #[expect(

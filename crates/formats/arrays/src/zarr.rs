@@ -27,7 +27,7 @@ use array::ZarrArray;
 use grid::Grid;
 use tree::Tree;
 
-/// Maximum nesting of groups.
+/// Maximum nesting of groups in a zarr store.
 const DEPTH: usize = 16;
 
 /// Cached chunks, by the index of the array and the position of the chunk in the grid.
@@ -173,7 +173,7 @@ impl Zarr {
         }
     }
 
-    /// Bytes of one chunk, row by row; `None` if the chunk was never written.
+    /// Bytes of the chunk at the grid position `place` of the array `index`, row by row; `None` if the chunk was never written.
     fn chunk(&self, index: usize, place: &[u64]) -> Result<Option<Arc<Vec<u8>>>, Problem> {
         let key = (index, place.to_vec());
         let mut kept = self.chunks.lock().unwrap_or_else(PoisonError::into_inner);
@@ -203,7 +203,7 @@ impl Zarr {
     }
 }
 
-/// True if `folder` contains a regular file `name` for a chunk. Returns an error for another entry of this name, such as a link.
+/// True if `folder` contains the chunk file `name`, and false if it contains nothing of this name. Anything else, such as a link, is an error.
 fn is_own_file(folder: &Path, name: &str) -> Result<bool, Problem> {
     let path = folder.join(name);
     match fs::symlink_metadata(&path) {
@@ -227,7 +227,7 @@ fn is_own_file(folder: &Path, name: &str) -> Result<bool, Problem> {
     }
 }
 
-/// Chunk files that exist for an array.
+/// Existing chunk files of an array.
 #[derive(Clone, Copy, Debug, Default)]
 struct Written {
     chunks: u64,
@@ -235,7 +235,7 @@ struct Written {
     bytes: u64,
 }
 
-/// Finds the chunks of the array in `folder`, which are the files with names of chunks.
+/// Finds the chunk files of `array` in `folder` by their names.
 fn written(folder: &Tree, array: &ZarrArray) -> Result<Written, Problem> {
     let mut there = Written::default();
     let mut folders = vec![(folder.clone(), String::new(), 0)];

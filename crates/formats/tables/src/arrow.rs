@@ -15,11 +15,11 @@ use crate::limits;
 use crate::parquet::{ColumnKind, Found, Node, names};
 use crate::source::Source;
 
-/// Number of rows converted to cells at once.
+/// Number of rows whose values are converted to cells at once.
 const ROWS_AT_ONCE: u64 = 64;
-/// First bytes of a file with a footer, followed by the stream.
+/// First bytes of an Arrow file with a footer. A stream of messages follows.
 const FILE_MARK: &[u8] = b"ARROW1\0\0";
-/// Maximum number of batches of a file.
+/// Maximum number of record batches of a file.
 const BATCHES: usize = 1 << 20;
 
 /// Table in an Arrow file: a stream, as `datasets` of Hugging Face writes with `save_to_disk`, or Feather version 2.
@@ -115,7 +115,7 @@ impl ArrowTable {
         self.rows
     }
 
-    /// Columns in the order of the schema. A structure is listed by its members, such as `pose.x`.
+    /// Names of the columns, in the order of the schema. The list has the members of a structure, such as `pose.x`, and not the structure.
     pub fn names(&self) -> Vec<String> {
         names(&self.columns)
     }
@@ -213,7 +213,7 @@ impl ArrowTable {
         Ok(())
     }
 
-    /// Column at the start of `name`, restricted to the members of structures that `name` selects.
+    /// Column that `name` begins with. Of a structure, only the member that `name` selects is kept.
     fn field(&self, name: &str) -> Result<Field, TableError> {
         field::named(&self.fields, name).ok_or_else(|| self.source.missing(name, self.names()))
     }

@@ -12,7 +12,7 @@ impl<'a> Bytes<'a> {
         Bytes { all, at: 0 }
     }
 
-    /// Number of bytes read.
+    /// Number of bytes read so far.
     pub(crate) fn at(&self) -> usize {
         self.at
     }

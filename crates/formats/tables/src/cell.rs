@@ -107,7 +107,7 @@ impl Cell {
         Some(cell)
     }
 
-    /// Cell at a path inside this cell; null if a cell on the path is null; `None` if the member does not exist.
+    /// Cell at a path inside this cell. Returns [`Cell::Null`] if a cell on the path is null, and `None` if the member does not exist.
     pub(crate) fn into_inside(self, path: &str) -> Option<Cell> {
         if path.is_empty() || self == Cell::Null {
             return Some(self);

@@ -9,27 +9,28 @@ use mzstd::{
 use crate::limits;
 use crate::snappy::SnappyStream;
 
-/// Compression of bytes.
+/// Compression method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Codec {
     /// No compression.
     Plain,
     /// The block format of snappy.
     Snappy,
-    /// Members of gzip.
+    /// Gzip, in one or more members.
     Gzip,
     Brotli,
     Lz4Block,
-    /// LZ4 blocks as in Hadoop, each preceded by its unpacked and packed size.
+    /// LZ4 blocks as Hadoop writes them, each after its unpacked and packed size.
     Lz4Hadoop,
     Lz4Frame,
-    /// A stream of bz2.
+    /// Bzip2, in one stream.
     Bzip2,
-    /// A frame of Zstandard.
+    /// Zstandard, in one frame.
     Zstd,
 }
 
-/// Maximum growth of Snappy and LZ4 blocks. A Snappy copy of 64 bytes takes 3 bytes; 255 bytes of LZ4 take 1 byte.
+/// Maximum ratio of unpacked to packed bytes of a Snappy block. `LZ4_GROWTH` is that of an LZ4 block. A Snappy copy of 64 bytes takes 3 bytes; 255
+/// bytes of LZ4 take 1 byte.
 const SNAPPY_GROWTH: usize = 64;
 const LZ4_GROWTH: usize = 255;
 /// Window size that Zstandard needs for levels up to 19, bytes.
@@ -129,7 +130,7 @@ fn not_whole(error: &DecodeError) -> io::Error {
     io::Error::other(format!("incomplete Zstandard frame: {error}"))
 }
 
-/// Decoder for frames of at most `size` bytes. The window is `size`, but at least the window of level 19.
+/// Decoder of Zstandard frames of at most `size` bytes. Its window has `size` bytes, but at least the size for level 19.
 fn decompressor(size: u64) -> Result<Decompressor, String> {
     let window = size.clamp(ZSTD_WINDOW_BYTES, limits::PAGE_BYTES.max(ZSTD_WINDOW_BYTES));
     let log = u8::try_from(window.next_power_of_two().ilog2()).unwrap_or(u8::MAX);
@@ -141,7 +142,7 @@ fn decompressor(size: u64) -> Result<Decompressor, String> {
     ))
 }
 
-/// Output of `decoder`, up to one byte more than `size`, so that an excess is detected.
+/// Reads at most `size + 1` bytes from `decoder`, so that the caller detects an excess. An error names the format `name`.
 fn streamed(name: &str, decoder: impl Read, size: usize) -> Result<Vec<u8>, String> {
     let mut unpacked = Vec::new();
     decoder

@@ -26,7 +26,7 @@ pub enum TableError {
         /// Error of the operating system.
         source: io::Error,
     },
-    /// Bytes that contradict the format: truncated, changed, or written incorrectly.
+    /// File whose bytes contradict the format, because it is truncated, changed or written incorrectly.
     #[error("{}{place}: {}", core_shown(path), core_shown(problem))]
     Damaged {
         /// Path of the file.
@@ -47,11 +47,11 @@ pub enum TableError {
     Cut {
         /// Path of the file.
         path: PathBuf,
-        /// Location at which the end was detected.
+        /// Location at which the file ends too early.
         place: Place,
         /// Missing content.
         problem: String,
-        /// Number of messages that [`Recording::open_to_cut`](crate::Recording::open_to_cut) reads.
+        /// Number of complete messages, which [`Recording::open_to_cut`](crate::Recording::open_to_cut) can read.
         messages: u64,
         /// Command of another program that recovers the complete messages.
         remedy: &'static str,
@@ -71,7 +71,7 @@ pub enum TableError {
     TooLarge {
         /// Path of the file.
         path: PathBuf,
-        /// Location in the file.
+        /// Location of the content in the file.
         place: Place,
         /// Size found, and the limit.
         problem: String,
@@ -96,7 +96,7 @@ pub enum TableError {
     Mismatch {
         /// Path of the file.
         path: PathBuf,
-        /// Requested name.
+        /// Name of the column, element or cell.
         name: String,
         /// Kind found, and kind expected.
         problem: String,

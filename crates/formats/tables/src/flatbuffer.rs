@@ -8,7 +8,7 @@ pub(crate) struct Table<'b> {
     at: usize,
 }
 
-/// Vector of tables.
+/// Vector of FlatBuffers tables.
 #[derive(Clone, Copy)]
 pub(crate) struct Tables<'b> {
     bytes: &'b [u8],
@@ -23,7 +23,7 @@ impl<'b> Table<'b> {
         Some(Table { bytes, at })
     }
 
-    /// Offset of field `number`; `None` if the field is missing.
+    /// Offset of the field `number` in the buffer; `None` if the field is missing.
     fn field(self, number: usize) -> Option<usize> {
         let back = unsigned(self.bytes, self.at)?;
         let back = i32::from_le_bytes(u32::try_from(back).ok()?.to_le_bytes());
@@ -46,19 +46,19 @@ impl<'b> Table<'b> {
         short(self.bytes, self.field(number)?)
     }
 
-    /// Integer field of 4 bytes.
+    /// Field `number`, an integer of 4 bytes; `None` if it is missing.
     pub(crate) fn integer(self, number: usize) -> Option<i32> {
         let own = self.bytes.get(self.field(number)?..)?;
         own.first_chunk().copied().map(i32::from_le_bytes)
     }
 
-    /// Integer field of 8 bytes.
+    /// Field `number`, an integer of 8 bytes; `None` if it is missing.
     pub(crate) fn long(self, number: usize) -> Option<i64> {
         let own = self.bytes.get(self.field(number)?..)?;
         own.first_chunk().copied().map(i64::from_le_bytes)
     }
 
-    /// Bytes of a vector whose elements have `size` bytes each.
+    /// Bytes of the vector in the field `number`. Its elements have `size` bytes each.
     pub(crate) fn elements(self, number: usize, size: usize) -> Option<&'b [u8]> {
         let at = self.lead(number)?;
         let begin = at.checked_add(4)?;
@@ -66,7 +66,7 @@ impl<'b> Table<'b> {
         self.bytes.get(begin..begin.checked_add(bytes)?)
     }
 
-    /// Offset to which the field refers.
+    /// Offset to which the field `number` refers.
     fn lead(self, number: usize) -> Option<usize> {
         let at = self.field(number)?;
         at.checked_add(unsigned(self.bytes, at)?)

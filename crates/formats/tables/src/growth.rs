@@ -2,7 +2,7 @@
 
 use crate::limits;
 
-/// Number of bytes unpacked in one pass over a file.
+/// Numbers of packed and unpacked bytes of the chunks read in one pass over a file.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Growth {
     packed: u64,
@@ -13,7 +13,7 @@ impl Growth {
     /// Counts a chunk before it is unpacked.
     ///
     /// # Errors
-    /// Error message if the chunks expand more than the chunks of any real recording. Reading would then take hours.
+    /// Error message if the chunks expand more than those of any real recording, because reading would take hours.
     pub(crate) fn take(&mut self, packed: u64, unpacked: u64) -> Result<(), String> {
         self.packed = self.packed.saturating_add(packed);
         self.unpacked = self.unpacked.saturating_add(unpacked);

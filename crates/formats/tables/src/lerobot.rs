@@ -248,8 +248,8 @@ impl LeRobot {
         Ok(())
     }
 
-    /// Frame of each row in the video `key`, a feature with dtype `video`. The time stamp of the row, relative to the start of its episode in the file,
-    /// determines the frame.
+    /// Frame of each row in the video `key`, a feature with dtype `video`. The time stamp of the row, counted from the start of its episode in the
+    /// file, determines the frame.
     ///
     /// # Errors
     /// [`TableError::Missing`] if no video has this name. [`TableError::Damaged`] if no file contains an episode, or a time stamp is more than a quarter of a

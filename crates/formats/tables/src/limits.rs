@@ -1,7 +1,7 @@
 //! Memory limits. Larger files are rejected before memory is allocated for them. Reading a file takes less than 512 MiB of memory, even if the file
 //! states false sizes (`tests/hostile.rs`).
 
-/// Maximum size of metadata, bytes: the footer of a Parquet file, or the summary of an MCAP file.
+/// Maximum size of the metadata of a file, bytes: the footer of a Parquet file, or the summary of an MCAP file.
 pub(crate) const DESCRIPTION_BYTES: u64 = 32 << 20;
 /// Maximum size of a JSON file of LeRobot or of a JSON message, bytes. Parsing takes several times as much memory.
 pub(crate) const JSON_BYTES: u64 = 16 << 20;
@@ -21,13 +21,13 @@ pub(crate) const DEPTH: usize = 32;
 pub(crate) const NAMES: usize = 1 << 16;
 /// Maximum number of messages of one topic. The time and location of each message are kept in memory.
 pub(crate) const MESSAGES: usize = 1 << 23;
-/// Maximum number of list elements that become cells, per message.
+/// Maximum number of list elements in one message that become cells.
 pub(crate) const MESSAGE_CELLS: usize = 1 << 20;
 
-/// Unpacked size that any small file may have, bytes. The limit for a larger file is a multiple of its stored size.
+/// Minimum limit of the unpacked size of a file, bytes. The limit of a larger file is a multiple of its stored size.
 const UNPACKED_BYTES: u64 = 128 << 20;
 const UNPACKED_RATIO: u64 = 200;
-/// Memory that the cells of one request may take for any small file, bytes.
+/// Minimum limit of the memory of the cells of one request, bytes. The limit of a larger file is a multiple of its stored size.
 const LEAST_COLUMN_BYTES: u64 = 96 << 20;
 const COLUMN_RATIO: u64 = 64;
 

@@ -16,10 +16,10 @@ use crate::error::{Place, TableError};
 use crate::message::{Channel, Entry, Message, MessageReader, MessageStore};
 use crate::source::Source;
 
-/// First and last eight bytes of a file.
+/// First and last eight bytes of an MCAP file.
 pub(crate) use self::record::MAGIC;
 
-/// MCAP file, described by its summary, or by all its records if the summary is missing.
+/// MCAP file, with its contents from its summary, or from all its records if the summary is missing.
 #[derive(Debug)]
 pub(crate) struct McapFile {
     source: Source,
@@ -99,7 +99,7 @@ impl MessageStore for McapFile {
     }
 }
 
-/// Reader of messages with its own cursor in the file.
+/// Reader of the messages of an MCAP file, with its own cursor.
 struct Records<'a> {
     source: &'a Source,
     chunks: Chunks<'a>,

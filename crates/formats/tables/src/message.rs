@@ -16,7 +16,7 @@ pub(crate) struct Schema {
     pub(crate) text: Vec<u8>,
 }
 
-/// Common properties of the messages that one writer sent on one topic.
+/// Channel: the common properties of the messages that one writer sent on one topic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Channel {
     pub(crate) topic: String,
@@ -26,7 +26,8 @@ pub(crate) struct Channel {
     pub(crate) count: u64,
 }
 
-/// Location of a message: its time, its chunk or page (`None` if directly in the file), and the byte range.
+/// Time and location of a message. `chunk` is the offset of its chunk or the number of its page, `None` for the file itself. `at` is an offset, or
+/// the number of a cell in a page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Entry {
     pub(crate) log_time: u64,
@@ -45,7 +46,7 @@ pub(crate) struct Message {
 }
 
 impl Message {
-    /// Message of `channel` whose content is the range `range` of the shared bytes `held`.
+    /// Creates a message of `channel`. Its content is the byte range `range` of `held`, which messages share.
     pub(crate) fn new(
         channel: u32,
         log_time: u64,
@@ -77,14 +78,14 @@ pub(crate) trait MessageStore: fmt::Debug + Send + Sync {
     /// Offset of the end of the complete records of a truncated file; `None` for a complete file.
     fn cut_at(&self) -> Option<u64>;
 
-    /// All messages of `channels`, sorted by time, then by position in the file.
+    /// Locations of all messages of `channels`, sorted by time, then by position in the file.
     fn index(&self, channels: &BTreeSet<u32>) -> Result<Vec<Entry>, TableError>;
 
     /// Opens a reader of messages with its own cursor.
     fn reader(&self) -> Result<Box<dyn MessageReader + '_>, TableError>;
 }
 
-/// Reader of messages with its own cursor.
+/// Reader of the messages of an open file, with its own cursor.
 pub(crate) trait MessageReader {
     /// Reads the message at `entry`.
     fn message(&mut self, entry: &Entry) -> Result<Message, TableError>;

@@ -112,7 +112,7 @@ impl ParquetTable {
         self.rows
     }
 
-    /// Columns in the order of the schema. A structure is listed by its members, such as `pose.x`.
+    /// Names of the columns, in the order of the schema. The list has the members of a structure, such as `pose.x`, and not the structure.
     pub fn names(&self) -> Vec<String> {
         names(&self.columns)
     }
@@ -150,7 +150,7 @@ impl ParquetTable {
         Ok(cells)
     }
 
-    /// Appends the cells of the column `name` to `cells`. `bytes` counts their memory.
+    /// Appends the cells of the column `name` to `cells`. Adds their memory in bytes to `bytes`.
     pub(crate) fn read_column(
         &self,
         name: &str,
@@ -186,7 +186,7 @@ impl ParquetTable {
     }
 
     /// Calls `each` with each row of `sorted` and the bytes in the column `name`, such as `image.bytes`; [`None`] if the cell is null. Keeps one cell
-    /// and its decoder in memory, or one page if the encoding of the page is not plain.
+    /// and its decoder in memory, or one page if its encoding is not `PLAIN`.
     ///
     /// `sorted` must be ascending. A row listed twice is passed twice.
     ///
@@ -234,7 +234,7 @@ fn written<'m>(metadata: &'m ParquetMetaData, key: &str) -> Option<&'m str> {
     found.value.as_deref()
 }
 
-/// Number of rows of a group. The sum over all groups was checked when the file was opened.
+/// Number of rows of a row group. The sum over all groups was checked when the file was opened.
 fn rows_of(group: &RowGroupMetaData) -> usize {
     usize::try_from(group.num_rows()).unwrap_or(0)
 }

@@ -1,6 +1,6 @@
 //! Paths to values inside cells: `pose.x`, `ft[2]`, `ft[2,0]`.
 
-/// Index of the longest of `names` with which `text` begins, and the rest of `text`. A name may contain dots and brackets.
+/// Finds the longest of `names` with which `text` begins. Returns its index and the rest of `text`. A name may contain dots and brackets.
 ///
 /// The rest begins with a bracket, or follows the dot before a member.
 pub(crate) fn longest<'a, 'n>(
@@ -25,7 +25,7 @@ pub(crate) fn longest<'a, 'n>(
     best.map(|(at, _, rest)| (at, rest))
 }
 
-/// Numbers in the leading bracket of `text` (`[2]` or `[2,0]`), and the rest without the dot before a member.
+/// Numbers in the bracket at the start of `text` (`[2]` or `[2,0]`), and the text after the bracket, without a dot before a member.
 pub(crate) fn indices(text: &str) -> Option<(Vec<usize>, &str)> {
     let (inside, after) = text.strip_prefix('[')?.split_once(']')?;
     let is_index = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());

@@ -4,14 +4,14 @@ use crate::bytes::Bytes;
 use crate::cell::Cell;
 use crate::ros::{self, Picture, RawPicture};
 
-/// Description of a supported message.
+/// Description of a supported protobuf message.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct ProtobufMessage {
     name: &'static str,
     fields: &'static [Field],
 }
 
-/// Field of a message: its name and its number.
+/// Field of a protobuf message: its name, its number and its kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Field {
     name: &'static str,
@@ -21,14 +21,14 @@ pub(crate) struct Field {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
-    /// Time: seconds in the first field, nanoseconds in the second.
+    /// Time: a message with seconds in the first field and nanoseconds in the second.
     Time,
     Number,
     Text,
     Bytes,
 }
 
-/// Column, read from a field. The flag is true for a time in nanoseconds.
+/// Column of cells that are read from a field. `is_in_nanoseconds` is true for a time in nanoseconds instead of seconds.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Column {
     field: Field,
@@ -39,7 +39,7 @@ const fn field(name: &'static str, number: u32, kind: Kind) -> Field {
     Field { name, number, kind }
 }
 
-/// Supported messages.
+/// Supported protobuf messages.
 static KNOWN: [ProtobufMessage; 2] = [
     ProtobufMessage {
         name: "foxglove.CompressedImage",
@@ -101,7 +101,7 @@ impl ProtobufMessage {
         names.iter().map(column).collect()
     }
 
-    /// Cells of one message, one for each column, or an error message.
+    /// Reads the cells of one message, one for each column. Fails with an error message.
     pub(crate) fn read(&self, columns: &[Column], message: &[u8]) -> Result<Vec<Cell>, String> {
         let values = self.values(message)?;
         let cell = |column: &Column| {
@@ -122,7 +122,7 @@ impl ProtobufMessage {
         }
     }
 
-    /// Picture in a message, or an error message.
+    /// Reads the picture of a message. Fails with an error message.
     pub(crate) fn picture(&self, message: &[u8]) -> Result<Picture, String> {
         let values = self.values(message)?;
         let value = |name: &str| {
@@ -151,7 +151,7 @@ impl ProtobufMessage {
         raw.samples().map(Picture::Samples)
     }
 
-    /// Last value of each field in `message`. Unknown fields are skipped.
+    /// Values of the fields in `message`. Of several values of one field, the last is used. Unknown fields are skipped.
     fn values<'m>(&self, message: &'m [u8]) -> Result<Vec<Value<'m>>, String> {
         let mut values = vec![Value::Absent; self.fields.len()];
         let mut bytes = Bytes::new(message);
@@ -234,7 +234,7 @@ fn cell(column: &Column, value: &Value<'_>) -> Result<Cell, String> {
     })
 }
 
-/// Number and value of the next field.
+/// Takes the number and the value of the next field from `bytes`.
 fn next<'m>(bytes: &mut Bytes<'m>) -> Option<(u64, Value<'m>)> {
     let tag = varint(bytes)?;
     let value = match tag & 7 {

@@ -134,14 +134,14 @@ impl Recording {
         }
     }
 
-    /// Reason why the messages of the topic `name` cannot be read; `None` if they can. Does not read messages.
+    /// Reason why the messages of the topic `name` cannot be read; `None` if their type is supported. Does not read messages.
     pub fn why_unread(&self, name: &str) -> Option<String> {
         let topic = self.topics.iter().find(|topic| topic.name == name)?;
         language::of_topic(&*self.store, topic).err()
     }
 }
 
-/// Opens a file. If requested, opens the readable part of a truncated file that has at least one complete message.
+/// Opens a recording by `open`. With `is_to_cut`, opens the readable part of a truncated file by `to_cut` if it has a complete message.
 fn opened<S: MessageStore + 'static>(
     source: Source,
     is_to_cut: bool,
@@ -155,7 +155,7 @@ fn opened<S: MessageStore + 'static>(
     Ok(Arc::new(store))
 }
 
-/// Opens the reader of the format that the first bytes indicate. With `is_to_cut`, a truncated file is read up to its end.
+/// Opens the reader of the format that the first bytes indicate. With `is_to_cut`, the complete messages of a truncated file are read.
 fn store(source: Source, is_to_cut: bool) -> Result<Arc<dyn MessageStore>, TableError> {
     const ZSTANDARD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
     let mut file = source.open()?;

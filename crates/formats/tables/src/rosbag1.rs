@@ -25,7 +25,7 @@ pub(crate) const MAGIC: [u8; 13] = *b"#ROSBAG V2.0\n";
 pub(crate) struct Rosbag1 {
     source: Source,
     channels: BTreeMap<u32, Channel>,
-    /// Offset of each message index of a connection, and the offset of its chunk.
+    /// For each connection: the offset of each chunk with its messages, and the offset of the message index of that chunk.
     indices: BTreeMap<u32, Vec<(u64, u64)>>,
     /// Messages of a truncated bag, in place of the indices; `None` for a complete bag.
     before_cut: Option<Walk>,
@@ -140,7 +140,7 @@ impl Rosbag1 {
         })
     }
 
-    /// Counts the messages of each connection by their indices.
+    /// Adds up the message counts that the message indices of each connection state.
     fn count(&mut self, records: &mut Records<'_>) -> Result<(), TableError> {
         for (connection, indices) in &self.indices {
             let Some(channel) = self.channels.get_mut(connection) else {
@@ -243,7 +243,7 @@ impl<'a> Records<'a> {
         })
     }
 
-    /// Head of the record at `at`. The data of the record must end within the file.
+    /// Reads the head of the record at the offset `at`. The data of the record must end within the file.
     fn head(&mut self, at: u64) -> Result<Head, TableError> {
         match self.head_within(at)? {
             Ok(head) => Ok(head),
@@ -254,7 +254,7 @@ impl<'a> Records<'a> {
         }
     }
 
-    /// Head of the record at `at`, or an error message if the file ends before the record.
+    /// Reads the head of the record at the offset `at`. Returns an error message if the file ends before the record.
     fn head_within(&mut self, at: u64) -> Result<Result<Head, String>, TableError> {
         let mut four = |at: u64| {
             let bytes = self.source.bytes(&mut self.file, at, 4, 4).ok()?;
@@ -285,21 +285,21 @@ impl<'a> Records<'a> {
         })
     }
 
-    /// Data of the record with this head.
+    /// Reads the data of the record with this head.
     fn data(&mut self, head: &Head) -> Result<Vec<u8>, TableError> {
         let length = head.end - head.data_at;
         self.source
             .bytes(&mut self.file, head.data_at, length, limits::PAGE_BYTES)
     }
 
-    /// Bytes of the whole record at `at` with this head.
+    /// Reads the whole record at the offset `at`, from its head `head` to the end of its data.
     fn whole(&mut self, at: u64, head: &Head) -> Result<Vec<u8>, TableError> {
         let length = head.end - at;
         self.source
             .bytes(&mut self.file, at, length, limits::PAGE_BYTES)
     }
 
-    /// Unpacked records of the chunk at `at`. For a truncated uncompressed chunk, only the records before its end.
+    /// Unpacked records of the chunk at the offset `at`. A truncated uncompressed chunk gives the records before the end of the file.
     fn unpacked(&mut self, at: u64) -> Result<Arc<Vec<u8>>, TableError> {
         if let Some((kept, bytes)) = &self.kept
             && *kept == at

@@ -10,9 +10,9 @@ use crate::ros;
 use crate::source::Source;
 use crate::sqlite::{Database, Pages, Record, RowPlace, SqliteTable, Value};
 
-/// Newest supported version of the schema.
+/// Newest supported version of the database schema of rosbag2.
 const VERSION: i64 = 4;
-/// Tables of versions up to [`VERSION`].
+/// Names of the tables that schema versions up to [`VERSION`] have.
 const TABLES: [&str; 5] = [
     "schema",
     "metadata",
@@ -30,7 +30,7 @@ const OF_TOPICS: [&str; 6] = [
 ];
 const OF_MESSAGES: [&str; 4] = ["id", "topic_id", "timestamp", "data"];
 
-/// Database of messages.
+/// Recording of ROS 2 in an SQLite database.
 #[derive(Debug)]
 pub(crate) struct Rosbag2 {
     database: Database,
@@ -38,7 +38,7 @@ pub(crate) struct Rosbag2 {
     channels: BTreeMap<u32, Channel>,
 }
 
-/// Positions of the columns of a message in the table `messages`.
+/// Positions of three columns in the table `messages`.
 #[derive(Clone, Copy, Debug)]
 struct Columns {
     topic: usize,
@@ -72,7 +72,7 @@ impl Rosbag2 {
         })
     }
 
-    /// Opens the complete messages in the pages of the truncated database in `source`.
+    /// Opens the truncated database in `source`. Its messages are those that lie completely in the existing pages.
     ///
     /// # Errors
     /// Errors of [`open`](Self::open).
@@ -138,7 +138,7 @@ impl Rosbag2 {
             })
     }
 
-    /// Topic and time of a message.
+    /// Number of the topic of a message, and the time of the message in ns.
     fn head(
         &self,
         record: &mut Record<'_, '_>,
@@ -272,7 +272,7 @@ fn check_schema(database: &Database) -> Result<(), TableError> {
     })
 }
 
-/// Table `name`. The table must have the first `least` of the columns `known`, and no columns outside `known`.
+/// Finds the table `name`. It must have the first `least` columns of `known`, and no column that is not in `known`.
 fn table<'d>(
     database: &'d Database,
     name: &str,
@@ -306,7 +306,7 @@ fn table<'d>(
     Err(source.unsupported(Place::of(name), problem))
 }
 
-/// Topics, with the definitions of their messages if the file contains them or ROS 2 defines them.
+/// Topics by number. The definition of their messages is from the file, or else a standard one of ROS 2, or missing.
 fn channels(database: &Database) -> Result<BTreeMap<u32, Channel>, TableError> {
     let source = database.source();
     let definitions = definitions(database)?;
@@ -363,7 +363,7 @@ fn channels(database: &Database) -> Result<BTreeMap<u32, Channel>, TableError> {
     Ok(channels)
 }
 
-/// Definitions of messages in the file, by type; empty for a recording older than ROS 2 Iron.
+/// Message definitions that the file contains, by type; empty for a recording older than ROS 2 Iron.
 fn definitions(database: &Database) -> Result<BTreeMap<String, Arc<Schema>>, TableError> {
     let mut found = BTreeMap::new();
     let Some(table) = database

@@ -1,4 +1,4 @@
-//! Checks of requested rows.
+//! Checks of the rows that a caller requests from a table.
 
 use crate::error::TableError;
 use crate::source::Source;

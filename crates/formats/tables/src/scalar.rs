@@ -11,7 +11,7 @@ pub(crate) fn decimal(value: i128, scale: i32) -> Cell {
     )
 }
 
-/// Number of nanoseconds in a time unit. A 64-bit count of the longest unit, days, fits into 128 bits.
+/// Number of nanoseconds in a time unit. Even a 64-bit number of days fits into 128 bits of nanoseconds.
 pub(crate) fn nanoseconds_in(unit: &str) -> i128 {
     match unit {
         "ns" => 1,

@@ -1,25 +1,25 @@
 //! Streaming decoder of the snappy block format.
 //!
-//! A block is a length, then elements. An element is a literal or a copy of earlier output. Compressors split their input into pieces of 64 KiB and copy only
-//! within a piece. A window of that size is therefore sufficient. A copy from further back is rejected.
+//! A block has its unpacked length, then elements. An element is a literal or a copy of earlier output. Compressors split their input into pieces of
+//! 64 KiB and copy only within a piece. A window of that size is therefore sufficient. A copy from further back is rejected.
 
 use std::io::{self, BufRead, Read};
 
-/// Maximum distance of a copy, bytes.
+/// Maximum distance between a copy and its original in the output of snappy, bytes.
 const WINDOW: usize = 1 << 16;
 
-/// Streaming decoder of a block.
+/// Streaming decoder of a snappy block.
 pub(crate) struct SnappyStream<R> {
     packed: R,
-    /// Last output, and the position up to which it was returned. The output is trimmed to the size of a window regularly.
+    /// Last part of the output, which is regularly trimmed to the window size. `handed` is the position up to which it was returned.
     window: Vec<u8>,
     handed: usize,
-    /// Number of bytes to unpack.
+    /// Number of bytes that are not unpacked yet.
     left: usize,
     element: Element,
 }
 
-/// Current element.
+/// Element of a snappy block that is being unpacked.
 #[derive(Clone, Copy)]
 enum Element {
     Literal(usize),
@@ -27,7 +27,7 @@ enum Element {
 }
 
 impl<R: BufRead> SnappyStream<R> {
-    /// Decoder of a block with the stated unpacked size `size`, bytes.
+    /// Creates the decoder of a block, whose unpacked size must be `size` bytes.
     pub(crate) fn new(mut packed: R, size: u32) -> Result<SnappyStream<R>, String> {
         let mut announced = 0_u64;
         for shift in (0..35).step_by(7) {
@@ -51,7 +51,7 @@ impl<R: BufRead> SnappyStream<R> {
         })
     }
 
-    /// Next element, with a length above 0.
+    /// Reads the next element, whose length is above 0.
     fn next(&mut self) -> io::Result<Element> {
         let mut bytes = [byte(&mut self.packed)?, 0, 0, 0, 0];
         let extra = numbers(bytes[0]);
@@ -164,7 +164,7 @@ fn copy(window: &mut Vec<u8>, from: usize, length: usize, left: usize) -> io::Re
     Ok(())
 }
 
-/// Element at `at`, and the offset after its length and offset bytes; `None` if `packed` ends within these bytes.
+/// Parses the element at the offset `at`. Also returns the offset after its tag and numbers; `None` if `packed` ends within these.
 fn element(packed: &[u8], at: usize) -> Option<(Element, usize)> {
     let tag = *packed.get(at)?;
     let high = usize::from(tag >> 2);
@@ -194,7 +194,7 @@ fn byte(from: &mut impl BufRead) -> io::Result<u8> {
     Ok(byte[0])
 }
 
-/// Number of length and offset bytes after a tag.
+/// Number of bytes after a tag that state the length or the distance of an element.
 fn numbers(tag: u8) -> usize {
     match tag & 3 {
         0 => usize::from(tag >> 2).saturating_sub(59),
@@ -212,7 +212,7 @@ fn wrong(problem: &str) -> io::Error {
 mod tests {
     use super::*;
 
-    /// Bytes with near and far repetitions, and some without.
+    /// Pseudo-random bytes, in part repetitions of near or far bytes.
     fn drawn(length: usize, mut seed: u64) -> Vec<u8> {
         let mut bytes: Vec<u8> = Vec::with_capacity(length);
         while bytes.len() < length {
@@ -232,7 +232,7 @@ mod tests {
         bytes
     }
 
-    /// Unpacks the whole input. Checks that a small buffer gives the same result.
+    /// Unpacks the whole input. Checks that reading through a small buffer gives the same result.
     fn unpacked(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
         let size = u32::try_from(size).expect("small");
         let read = |mut stream: Box<dyn Read + '_>| {

@@ -1,4 +1,4 @@
-//! Untrusted file. Each reader opens the file separately, so that threads do not share a cursor.
+//! File whose content is not trusted. Each reader opens the file separately, so that threads do not share a cursor.
 
 use std::fs::{self, File};
 use std::io::{Read, Seek, SeekFrom};
@@ -14,7 +14,7 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    /// Regular file at `path`. The kind of file is checked before opening, because opening a FIFO blocks.
+    /// Checks the regular file at `path`. Its kind is checked before it is opened, because opening a FIFO blocks.
     pub(crate) fn new(path: &Path) -> Result<Source, TableError> {
         let metadata = fs::metadata(path).map_err(|source| TableError::Io {
             path: path.to_owned(),
@@ -55,7 +55,7 @@ impl Source {
         }
     }
 
-    /// Reads `count` bytes from `at`. Allocates no memory beyond the end of the file or above `limit`.
+    /// Reads `count` bytes from the offset `at`. Rejects bytes beyond the end of the file, or more than `limit`, before memory is allocated.
     pub(crate) fn bytes(
         &self,
         file: &mut File,

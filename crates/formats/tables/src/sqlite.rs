@@ -1,6 +1,6 @@
 //! Read-only access to tables of an SQLite 3 database: <https://www.sqlite.org/fileformat2.html>.
 //!
-//! Only B-trees of tables are read. Indices, triggers and views are ignored, so rows cannot be searched by value.
+//! Only B-trees of tables are read. Indices, triggers and views are ignored. Rows are thus found by number only.
 
 mod columns;
 mod page;
@@ -21,16 +21,16 @@ use tree::walk;
 pub(crate) const MAGIC: [u8; 16] = *b"SQLite format 3\0";
 /// Size of the header of a file, bytes.
 const HEADER: u64 = 100;
-/// First bytes of a hot journal, which must be rolled back.
+/// First bytes of a hot journal, which SQLite must roll back before the database is read.
 const JOURNAL: [u8; 8] = [0xd9, 0xd5, 0x05, 0xf9, 0x20, 0xa1, 0x63, 0xd7];
 
-/// Database with its tables.
+/// Open SQLite database with its tables.
 #[derive(Debug)]
 pub(crate) struct Database {
     source: Source,
     /// Size of a page, bytes.
     page_bytes: u32,
-    /// Usable size of a page, bytes.
+    /// Size of a page without the bytes reserved at its end, bytes.
     usable: u32,
     /// Number of pages in the file.
     pages: u32,
@@ -46,7 +46,7 @@ pub(crate) struct SqliteTable {
     root: u32,
     /// Names of the columns.
     pub(crate) columns: Vec<String>,
-    /// Position of the column that is an alias of the row number.
+    /// Position of the column that stands for the row number; `None` if no column does.
     id: Option<usize>,
 }
 
@@ -131,13 +131,13 @@ impl Database {
         (self.pages < self.announced).then(|| u64::from(self.pages) * u64::from(self.page_bytes))
     }
 
-    /// Size of the file before truncation, bytes, as its header states.
+    /// Size that the header states for the complete file, bytes.
     fn announced_bytes(&self) -> u64 {
         let announced = u64::from(self.announced) * u64::from(self.page_bytes);
         self.source.length().max(announced)
     }
 
-    /// Description of the missing pages.
+    /// Error message about the missing pages of a truncated database.
     pub(crate) fn missing_pages(&self) -> String {
         format!(
             "{} pages of {} bytes are announced, but the file has {}: it is cut short",

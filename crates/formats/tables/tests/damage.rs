@@ -1,4 +1,4 @@
-//! Tests with damaged copies of every file. Each copy gives a result or a typed error that names the file.
+//! Tests with damaged copies of every test file. Each copy gives a result or a typed error that names the file.
 //!
 //! The code of this crate does not panic, and uses little memory and time.
 
@@ -10,7 +10,7 @@ use recordings::damage::{Endings, attempt, damage, peak_bytes};
 use recordings::recording;
 use taceva_tables::{ArrowTable, Cell, LeRobot, ParquetTable, Recording, TableError};
 
-/// Maximum memory for damaged files of at most 100 KB.
+/// Maximum peak memory of this process for reading damaged files of at most 100 KB, bytes.
 const BYTES: u64 = 512 << 20;
 
 fn every_column(path: &Path) -> Result<Vec<Vec<Cell>>, TableError> {
@@ -28,7 +28,7 @@ fn check_memory() {
     }
 }
 
-/// Reads all rows of two columns of bytes, one row at a time, as for pictures.
+/// Reads two columns of bytes, one row at a time, as pictures are read. Returns the number of bytes.
 fn every_picture(path: &Path) -> Result<usize, TableError> {
     let table = ParquetTable::open(path)?;
     let rows: Vec<u64> = (0..table.rows()).collect();

@@ -1,4 +1,5 @@
-//! Tests with malicious files, and with files whose extension contradicts their format. They are rejected with a typed error and little memory.
+//! Tests with malicious files, and with files whose extension contradicts their format. Reading such a file gives a typed error and takes little
+//! memory.
 
 mod recordings;
 
@@ -90,7 +91,7 @@ fn mcap(records: &[Vec<u8>]) -> Vec<u8> {
     [magic, &header, &records.concat(), &end, magic].concat()
 }
 
-/// First error of reading all messages of `/x`.
+/// First error of reading all messages of the topic `/x` in an MCAP file with `records`.
 fn problem(records: &[Vec<u8>]) -> String {
     let (_folder, path) = file("x.mcap", &mcap(records));
     let result = Recording::open(&path).and_then(|recording| {

@@ -3,10 +3,10 @@
 use taceva_core::random::Draws;
 use taceva_core::{Frame, FrameInfo, whole_size};
 
-/// Pixel values of a picture: row by row, the colours of a pixel side by side.
+/// Pixel values of a picture, row by row. The colours of a pixel are consecutive.
 pub(crate) struct Canvas {
     info: FrameInfo,
-    /// Values in steps of the camera, also outside its range.
+    /// Values in digital levels of the camera. A fault may move them out of the range of the camera.
     ///
     /// # Shapes
     /// `[height, width, colours]`.
@@ -22,7 +22,7 @@ impl Canvas {
         }
     }
 
-    /// The picture: each value rounded half to even, and clamped to the range of the camera.
+    /// Converts the values to a picture. Each value is rounded half to even, and clamped to the range of the camera.
     pub(crate) fn into_frame(self) -> Frame {
         let full = self.full();
         let width = self.info.format.bytes_per_sample();
@@ -49,7 +49,7 @@ impl Canvas {
         self.info.format.samples()
     }
 
-    /// Greatest value that the camera can give.
+    /// Greatest pixel value of the camera, such as 255.
     pub(crate) fn full(&self) -> f32 {
         f32::from(self.info.format.full_scale())
     }
@@ -74,21 +74,21 @@ impl Canvas {
     }
 }
 
-/// Strength and random numbers of a fault in one picture.
+/// Parameter and random numbers of a fault in one picture.
 pub(crate) struct Realisation {
-    /// Parameter of the fault, above 0.
+    /// Parameter of the fault, above 0, in the unit that the fault states.
     pub(crate) parameter: f32,
-    /// Random numbers: drawn for each sample if the scope is [`Scope::Each`](crate::fault::Scope::Each), otherwise once for the seed and the fault.
+    /// Random numbers. They depend on the seed and the fault, and for [`Scope::Each`](crate::fault::Scope::Each) also on the sample.
     pub(crate) draws: Draws,
 }
 
 impl Realisation {
-    /// Number u with 0 ≤ u < 1, a multiple of 2⁻²⁴.
+    /// Random number with the index `counter`: a multiple of 2⁻²⁴, at least 0 and below 1.
     pub(crate) fn unit(&self, counter: u64) -> f32 {
         unit(self.draws, counter)
     }
 
-    /// Defects in the order of their draws, each with its strength. Only the last is weaker than 1.
+    /// Defects of the fault, as many as its parameter, rounded up. The last has the strength that remains; all others have strength 1.
     pub(crate) fn defects(&self) -> impl Iterator<Item = Defect> + '_ {
         let strength = move |number: u16| (self.parameter - f32::from(number)).min(1.0);
         (0..u16::MAX)
@@ -108,7 +108,7 @@ pub(crate) struct Defect {
 }
 
 impl Defect {
-    /// Number u with 0 ≤ u < 1, a multiple of 2⁻²⁴.
+    /// Random number with the index `counter`: a multiple of 2⁻²⁴, at least 0 and below 1.
     pub(crate) fn unit(&self, counter: u64) -> f32 {
         unit(self.draws, counter)
     }
@@ -118,12 +118,12 @@ fn unit(draws: Draws, counter: u64) -> f32 {
     (draws.bits(counter) >> 40) as f32 / 16_777_216.0
 }
 
-/// Whole part of a place or length in pixels; 0 if it is negative.
+/// Integer part of a coordinate or length in pixels; 0 if it is negative.
 pub(crate) fn index(place: f32) -> usize {
     whole_size(f64::from(place))
 }
 
-/// Nearest whole number, half to even.
+/// Rounds to the nearest integer, half to even.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -1,4 +1,4 @@
-//! Severities of faults of pictures, and their cells: one fault at one severity.
+//! Severities of the faults of pictures. A cell of the stress test is one fault at one severity.
 
 use taceva_evaluate::EvaluateError;
 use taceva_models::{MarkerTracker, Model};
@@ -10,7 +10,7 @@ use crate::setup::{Setup, StressRequest};
 use crate::severity::{By, Levels, Reference};
 use crate::stress::{Stress, draw_seeds};
 
-/// Severities of each fault.
+/// Finds the parameter of each fault at each requested severity.
 pub(crate) fn levels(
     setup: &Setup,
     scale: &Scale,
@@ -42,7 +42,7 @@ pub(crate) fn levels(
     Ok(levels.collect())
 }
 
-/// Cells of every fault at every severity.
+/// Creates one cell for each fault at each of its severities.
 pub(crate) fn cells<'m>(
     setup: &Setup,
     scale: &Scale,

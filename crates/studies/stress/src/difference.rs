@@ -1,27 +1,27 @@
-//! Tested differences of errors.
+//! Differences of two mean errors, with tests of significance.
 
 use serde::Serialize;
 
 use taceva_metrics::{Difference, decide};
 
-/// Difference of two errors, tested in a family of differences by Holm's procedure.
+/// Difference of two errors, with its test. Holm's procedure adjusts the test for the number of differences that are tested together.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ErrorDifference {
-    /// The difference, in the unit of the channel.
+    /// Difference, in the unit of the channel, such as N for a force.
     pub value: Option<f64>,
-    /// Both ends of its interval; `None` if an end is infinite.
+    /// Ends of the interval of the difference; `None` if an end is infinite.
     pub interval: Option<[f64; 2]>,
-    /// Confidence of the interval, more than 0.95 among several differences.
+    /// Confidence of the interval: 0.95 for one difference, and more if several are tested together.
     pub confidence: Option<f64>,
-    /// p value, adjusted for all differences of the family.
+    /// p value, adjusted for the number of differences that are tested together.
     pub p: Option<f64>,
-    /// True if a difference is shown.
+    /// True if the test shows that the difference is not 0.
     pub is_shown: bool,
-    /// Reason for an absent difference.
+    /// Reason why no difference was computed; `None` if there is one.
     pub reason: Option<String>,
 }
 
-/// Decides `tested` as one family of Holm's procedure. Reasons for absent differences keep their places.
+/// Tests all differences in `tested` together by Holm's procedure. An entry that is a reason instead of a difference stays at its position.
 pub(crate) fn decided(tested: Vec<Result<Difference, String>>) -> Vec<ErrorDifference> {
     let known = tested.iter().filter_map(|of| of.as_ref().ok());
     let mut family: Vec<Difference> = known.cloned().collect();

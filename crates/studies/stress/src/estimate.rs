@@ -1,11 +1,11 @@
-//! Numbers with intervals, and the reasons for absent numbers and intervals.
+//! Results of a stress test with their intervals, and the reasons for absent results and intervals.
 
 use std::fmt;
 
 use serde::Serialize;
 use taceva_metrics::{Interval, Score, UndefinedReason, Value};
 
-/// Largest number that counts as 0, because rounding errors can cause it.
+/// Greatest value that counts as 0, because rounding errors alone can cause it.
 const ROUNDING: f64 = 1e-9;
 
 /// Reason why a number or its interval is absent.
@@ -18,31 +18,31 @@ pub enum Undefined {
     ZeroBaseline,
     /// All labels are equal, so a constant prediction has no error to compare with.
     ConstantTruth,
-    /// The fault does not add to the error, so no part of it can be removed.
+    /// The fault does not add to the error, so a new untouched picture cannot remove any added error.
     NoExcess,
-    /// The model reads no untouched picture, or no untouched picture with the fault is usable.
+    /// The model reads no untouched picture (one without contact), or no untouched picture with the fault is usable.
     NoFreshReference,
     /// The samples name no contact points or groups.
     NoClusters,
     /// The samples come from fewer than five contact points or groups.
     TooFewClusters,
-    /// The error depends on one contact point, or is zero. A share of the excess error never has an interval.
+    /// No interval exists: the error depends on a single contact point or is zero, or the result is a share of the excess error.
     NoInterval,
-    /// No severity of the fault was reached.
+    /// The fault reaches no severity on this sensor.
     NoSeverity,
-    /// The fault is not shown to add to the error of the reference model.
+    /// No significant effect of the fault on the error of the reference model was found.
     ReferenceUnmoved,
-    /// Fewer than three recordings of the gel have the error.
+    /// Fewer than three recordings of the gel have a value of this error.
     TooFewRecordings,
     /// All recordings have the same number of presses, or the same day.
     EqualPlaces,
     /// The error of a recording is zero, which has no logarithm.
     ZeroError,
-    /// The error does not grow, so no limit is met later.
+    /// The error does not grow with wear, so it will not reach the limit.
     NotGrowing,
-    /// The growth of the error is not shown.
+    /// The growth of the error with wear is not statistically significant.
     GrowthNotShown,
-    /// The error of the last recording is above the limit, and the presses or day at which it reached the limit are unknown.
+    /// The error of the last recording already exceeds the limit. The number of presses or the day at which it reached the limit is unknown.
     AboveLimit,
 }
 
@@ -78,12 +78,12 @@ pub struct Estimate {
     pub value: Option<f64>,
     /// Both ends of its 95 % interval; `None` if the interval is absent.
     pub ci95: Option<[f64; 2]>,
-    /// Reason why the number, or otherwise its interval, is absent; `None` if both are known or no reason is stated.
+    /// Reason why the number is absent, or why its interval is absent; `None` if both are known or no reason is stated.
     pub reason: Option<Undefined>,
 }
 
 impl Estimate {
-    /// A score as a number with its interval.
+    /// Takes the value and the interval of a score.
     pub(crate) fn of(score: &Score) -> Estimate {
         let Some(value) = score.value.scalar() else {
             return Estimate::undefined(match score.value {
@@ -128,7 +128,7 @@ impl Estimate {
         }
     }
 
-    /// True if the number is shown to be above 0; `None` if that is unknown.
+    /// True if the interval is above 0. False if it is not, or if the number itself is not above 0. `None` if neither is known.
     pub fn is_above_zero(&self) -> Option<bool> {
         match self.value? {
             value if value <= ROUNDING => Some(false),

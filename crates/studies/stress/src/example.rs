@@ -1,4 +1,4 @@
-//! Example pictures: one sample with each fault of pictures at each severity.
+//! Example pictures: the picture of one sample, with each fault of pictures at each severity.
 
 use taceva_core::Frame;
 use taceva_dataset::Dataset;
@@ -29,17 +29,18 @@ use crate::stress::Stress;
 pub struct Examples {
     sample: String,
     frame: Frame,
-    /// Picture of the previous scored sample; `None` without such a sample.
+    /// Picture of the previous sample among the scored samples; `None` if there is none.
     before: Option<Frame>,
-    /// Time of the sample, a share of the duration of the recording.
+    /// Time of the sample as a fraction of the duration of the recording, from 0 to 1.
     share: f64,
     markers: Option<MarkerTracker>,
-    /// Each tested fault, and its severity.
+    /// Severity, and the fault at this severity, for each tested pair.
     cells: Vec<(u8, Stress<'static>)>,
 }
 
 impl Examples {
-    /// Examples of the sample with the greatest load in `report`, made by [`stress`](crate::stress()) of `dataset`. Decodes at most three pictures.
+    /// Chooses the sample with the greatest load among the samples of `report`, which [`stress`](crate::stress()) made of `dataset`. Decodes at most
+    /// three pictures.
     ///
     /// # Errors
     /// [`EvaluateError`] if a picture cannot be read, or the report has no sample.
@@ -83,7 +84,7 @@ impl Examples {
         &self.sample
     }
 
-    /// The picture without a fault, called `clean`, and with each fault and severity, called `tear-3`. Of several draws, only the first is shown.
+    /// Named pictures: `clean` without a fault, then one for each fault and severity, such as `tear-3`. Of several draws, only the first is used.
     pub fn pictures(&self) -> impl Iterator<Item = (String, Frame)> {
         let clean = ("clean".to_owned(), self.frame.clone());
         let faulty = self.cells.iter().map(move |(severity, stress)| {

@@ -6,7 +6,7 @@ use crate::canvas::{Canvas, Realisation};
 use crate::labels::LabelChange;
 use crate::taxels::TaxelChange;
 
-/// Random numbers of a fault.
+/// Set of pictures that share the random numbers of a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
     /// No random numbers: the same change in every picture.
@@ -17,22 +17,23 @@ pub enum Scope {
     Each,
 }
 
-/// A fault of pictures, signals, labels or rows: a pure function of their values, the parameter, the seed and the name of the sample.
+/// Fault of pictures, signals, labels or rows. The changed values depend only on the original values, the parameter, the seed and the name of the
+/// sample.
 #[derive(Debug)]
 pub struct Fault {
     /// Name of the fault, such as `defocus`.
     pub id: &'static str,
     /// Cause and appearance, in one line.
     pub title: &'static str,
-    /// Meaning and unit of the parameter; 0 is not a fault.
+    /// Meaning and unit of the parameter. At 0, the fault changes nothing.
     pub parameter: &'static str,
-    /// Random numbers of the fault.
+    /// Set of pictures that share the random numbers of the fault.
     pub scope: Scope,
-    /// Parameters of severities 1 to 5 if severity is set by parameter.
+    /// Parameters of severities 1 to 5, used if the parameter sets the severity and not the change of the picture.
     pub table: [f64; 5],
-    /// Greatest parameter.
+    /// Greatest allowed parameter of the fault.
     pub most: f64,
-    /// Limitation of the scores of the fault, for readers; `None` without a limitation.
+    /// Sentence about a limitation of the scores of the fault, for readers of the report; `None` without a limitation.
     pub note: Option<&'static str>,
     pub(crate) effect: Effect,
 }
@@ -42,27 +43,27 @@ pub struct Fault {
 pub(crate) enum Effect {
     /// Changes the pixel values of the picture.
     Numbers(fn(&mut Canvas, &Realisation)),
-    /// Changes the pixel values by a parameter that grows with time: from 0 at the first row to the whole parameter at the last row.
+    /// Changes the pixel values. The parameter grows with the time of the sample, from 0 at the first row to its full value at the last row.
     Growing(fn(&mut Canvas, &Realisation)),
-    /// Changes the pixel values at the places of markers.
+    /// Changes the pixel values at the positions of the markers on the gel.
     Markers(fn(&mut Canvas, &Realisation, &Markers)),
     /// Changes the pixel values of the colours of lost LEDs.
     Leds(fn(&mut Canvas, &Realisation, Leds)),
-    /// Replaces the picture by the previous picture.
+    /// Replaces the picture by the picture of the previous sample.
     Before,
     /// Changes the labels, and no picture.
     Labels(LabelChange),
     /// Changes the signals of taxels.
     Taxels(TaxelChange),
-    /// Leaves rows out.
+    /// Removes rows (samples) of the recording.
     Rows,
 }
 
 /// Markers of one picture.
 pub(crate) struct Markers {
-    /// Column and row of each marker of the untouched picture, in pixels from the centre of the first pixel.
+    /// Column and row of each marker in the untouched picture, in pixels from the centre of the top left pixel.
     pub(crate) places_px: Vec<[f64; 2]>,
-    /// Typical distance of two markers.
+    /// Typical distance between neighbouring markers, pixels.
     pub(crate) spacing_px: f64,
 }
 
@@ -77,7 +78,7 @@ impl Fault {
         matches!(self.effect, Effect::Taxels(_))
     }
 
-    /// True if the fault leaves rows out, and thereby changes only times. Its severity is then set by its parameter.
+    /// True if the fault removes rows (samples), and so changes only the times between rows. Its severity is then set by its parameter.
     pub fn is_of_rows(&self) -> bool {
         matches!(self.effect, Effect::Rows)
     }
@@ -95,12 +96,12 @@ impl Fault {
         }
     }
 
-    /// True if the fault of pictures grows with the time of the samples.
+    /// True if the fault changes pictures, and more so in later samples.
     pub(crate) fn grows(&self) -> bool {
         matches!(self.effect, Effect::Growing(_))
     }
 
-    /// True if the fault grows with the time of the samples, and changes pictures or signals.
+    /// True if the fault changes pictures or signals, and more so in later samples.
     pub(crate) fn needs_times(&self) -> bool {
         match self.effect {
             Effect::Growing(_) => true,
@@ -120,9 +121,9 @@ impl Fault {
     }
 }
 
-/// Remark on faults of labels.
+/// Note in the report on faults of labels.
 pub(crate) const NO_STIMULUS: &str =
     "the fault changes only labels, so its stimulus is undefined; its severity is its parameter";
 
-/// Remark on faults of a gel that are drawn at the same pixels of every picture.
+/// Note in the report on faults of a gel that are drawn at the same pixels of every picture.
 pub(crate) const LIES_STILL: &str = "the fault lies still in the picture, but moves with the contact on a real gel: errors after a new untouched picture are lower bounds";

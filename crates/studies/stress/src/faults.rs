@@ -39,7 +39,7 @@ pub const TAXEL_LIST: &str = "taxel-3";
 pub const TIME_LIST: &str = "time-1";
 /// Another name of the list of faults of pictures.
 const ALL: &str = "all";
-/// Faults of a gel. Changed pictures alone cannot simulate them, because force and picture change together.
+/// Names of the faults of a gel. Such a fault changes force and picture together, so changed pictures alone cannot simulate it.
 pub const GEL_FAULTS: [&str; 10] = [
     "gel_softening",
     "gel_hardening",
@@ -52,7 +52,7 @@ pub const GEL_FAULTS: [&str; 10] = [
     "gel_tear",
     "gel_dust",
 ];
-/// Version of the list. Scores by lists of different versions are not compared.
+/// Version of all lists of faults. Scores by lists of different versions are not compared.
 pub(crate) const LIST_VERSION: u32 = 1;
 
 /// Faults of pictures, in the order of the list [`LIST`].
@@ -87,7 +87,7 @@ pub static TAXEL_FAULTS: [&Fault; 3] =
 /// Faults of times, in the order of the list [`TIME_LIST`].
 pub static TIME_FAULTS: [&Fault; 1] = [&dropped_frames::FAULT];
 
-/// A list of faults.
+/// List of faults with a name.
 pub(crate) struct KnownList {
     pub(crate) name: &'static str,
     pub(crate) faults: &'static [&'static Fault],
@@ -113,7 +113,8 @@ pub(crate) static LISTS: [KnownList; 4] = [
     },
 ];
 
-/// Faults with the given `names`, in the order of all lists. The name of a list stands for its faults, `all` for [`LIST`]. Spaces are trimmed.
+/// Faults with the given `names`, in the order of all lists. The name of a list selects all its faults, and `all` those of [`LIST`]. Spaces are
+/// trimmed.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for an unknown name, or without a name.

@@ -1,4 +1,4 @@
-//! Findings in the scores of faults: the end of skill, the error that a new untouched picture removes, and errors that no check finds.
+//! Findings in the scores of faults: the severity that ends skill, the error that a new untouched picture removes, and errors that no check finds.
 
 use taceva_metrics::elementary::logarithm;
 
@@ -6,14 +6,15 @@ use crate::estimate::{Estimate, Undefined};
 use crate::report::{CellScore, FaultReport, SeverityReport, Unnoticed};
 use crate::severity::NEVER;
 
-/// Stimulus below which a fault hardly changes the pictures: the change of pictures by the fault, divided by their change by contact.
+/// Stimulus below which a fault hardly changes the pictures. Stimulus is the change of pictures by a fault, divided by their change by contact.
 pub(crate) const LOW: f64 = 0.05;
-/// Code of the check of untouched pictures.
+/// Code of the check that compares untouched pictures (pictures without contact).
 pub(crate) const CHANGED_REST: &str = "TAC034";
-/// Degradation from which an error counts as doubled.
+/// Minimum degradation of a doubled error. Degradation is the error divided by the error without the fault.
 const DOUBLE: f64 = 2.0;
 
-/// Least severity whose skill is no longer shown to be above 0; [`NEVER`] if there is none. `None` if that is unknown, or no severity was tested.
+/// Least severity at which the interval of the skill is not above 0; [`NEVER`] if there is none. `None` if an interval is missing, or no severity was
+/// tested.
 pub(crate) fn breaks_at(severities: &[SeverityReport], channel: &str) -> Option<u8> {
     for of in severities {
         let skill = of.stale.get(channel)?.skill;
@@ -24,8 +25,8 @@ pub(crate) fn breaks_at(severities: &[SeverityReport], channel: &str) -> Option<
     (!severities.is_empty()).then_some(NEVER)
 }
 
-/// Share of the excess error, in logarithms over all severities, that a new untouched picture removes. `mean` is the mean degradation without a new
-/// picture.
+/// Share of the excess error that a new untouched picture removes. Excess is the sum of the logarithms of degradation over all severities. `mean` is
+/// the mean degradation without a new picture.
 pub(crate) fn recovers(severities: &[SeverityReport], channel: &str, mean: &Estimate) -> Estimate {
     let Some(value) = mean.value else {
         return *mean;
@@ -52,7 +53,7 @@ pub(crate) fn recovers(severities: &[SeverityReport], channel: &str, mean: &Esti
     }
 }
 
-/// Errors that a fault of pictures or signals at least doubles, although no check of pictures or signals finds the fault.
+/// Errors that are at least doubled by a fault of pictures or signals that no check finds.
 pub(crate) fn unnoticed(faults: &[FaultReport]) -> Vec<Unnoticed> {
     let of_inputs = faults.iter().filter(|fault| !fault.keeps_inputs());
     let hidden = of_inputs.flat_map(|fault| {

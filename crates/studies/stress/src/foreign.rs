@@ -37,22 +37,22 @@ pub trait PictureFault: Sync {
     /// Name of the fault.
     fn name(&self) -> &str;
 
-    /// Key of the fault. Scores of faults with different keys are not compared.
+    /// Text that identifies the version of the fault. Scores of faults with different keys are not compared.
     fn key(&self) -> &str;
 
-    /// Returns the picture `frame` of `sample` with the fault at `severity`, from 1 to 5, in the same size and format.
+    /// Returns the picture `frame` of the sample `sample` with the fault. `severity` is from 1 to 5. Size and format must not change.
     ///
     /// # Errors
     /// The reason, if the plugin fails.
     fn apply(&self, frame: &Frame, severity: u8, sample: &str) -> Result<Frame, String>;
 }
 
-/// One severity of a fault.
+/// Fault of a plugin at one severity.
 struct Cell {
     severity: u8,
     /// True if the check of untouched pictures finds the fault.
     is_noticed: bool,
-    /// Feature extractor with the faulty untouched picture; `None` without an untouched picture, or if the model reads none.
+    /// Feature extractor whose untouched picture has the fault; `None` without an untouched picture, or if the model reads none.
     fresh: Option<Extractor>,
 }
 
@@ -61,12 +61,12 @@ struct Cell {
 struct Numbers {
     stale: Vec<f64>,
     fresh: Vec<f64>,
-    /// Sum of the changes of all pictures.
+    /// Sum over all pictures of their mean change by the fault, each a fraction of full scale.
     changes: f64,
 }
 
 impl NewGel<'_> {
-    /// Scores of `fault` at `severities`, or the reason why it failed. A fault that fails once has no scores.
+    /// Scores of the plugin fault `fault` at `severities`, or the reason why it failed. If it fails for one picture, it has no scores at all.
     pub(crate) fn foreign(
         &self,
         fault: &dyn PictureFault,
@@ -145,7 +145,7 @@ impl NewGel<'_> {
         })
     }
 
-    /// Predictions of every cell, or the reason why `fault` failed.
+    /// Predictions with `fault` at the severity of each of `cells`, or the reason why the fault failed.
     fn numbers(
         &self,
         fault: &dyn PictureFault,
@@ -200,7 +200,7 @@ impl NewGel<'_> {
     }
 }
 
-/// The picture with the fault. A picture of another size or format is a failure of the fault.
+/// Returns the picture with the fault. Fails if the plugin returns a picture of another size or format.
 fn changed(
     fault: &dyn PictureFault,
     frame: &Frame,

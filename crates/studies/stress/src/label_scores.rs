@@ -1,4 +1,4 @@
-//! Scores of a fault of labels: predictions of pictures without a fault, compared with labels with the fault.
+//! Scores of a fault of labels. Predictions from unchanged pictures are compared with labels that have the fault.
 
 use taceva_core::Column;
 use taceva_core::random::fnv_1a;
@@ -13,7 +13,7 @@ use crate::stress::Stress;
 use crate::worn::{NewGel, ScoredFault};
 
 impl NewGel<'_> {
-    /// Scores of `fault`, which changes labels, with the `predicted` numbers of pictures without a fault. A fault of another kind gets no severities.
+    /// Scores of the predictions `predicted` from unchanged pictures against labels with `fault`. A fault that changes no labels gets no severities.
     pub(crate) fn by_labels(
         &self,
         fault: &'static Fault,

@@ -11,13 +11,13 @@ use taceva_models::Model;
 /// Change that a fault makes to labels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LabelChange {
-    /// Reason why the fault can change no label of these samples; `None` if it can change some.
+    /// Function that returns the reason why the fault cannot change the labels of the given rows; `None` if it can change some.
     pub(crate) lacks: fn(&Dataset, &Model, &[usize]) -> Option<&'static str>,
-    /// Labels of one channel with the fault of this parameter.
+    /// Function that returns the labels of one channel with the fault at the given parameter.
     pub(crate) change: fn(&Labels<'_>, f64) -> Column,
 }
 
-/// Labels of one channel.
+/// Labels of one channel, without the fault.
 pub(crate) struct Labels<'a> {
     pub(crate) table: &'a Table,
     pub(crate) channel: Channel,
@@ -28,7 +28,7 @@ pub(crate) struct Labels<'a> {
     pub(crate) draws: Draws,
 }
 
-/// For each row of `table`, the next row of the same contact, clock and unit, at most [`STREAM_S`] later.
+/// Index of the next row of the same contact, clock and sensor unit, for each row of `table`; `None` if it is more than [`STREAM_S`] later.
 pub(crate) fn followers(table: &Table) -> Vec<Option<usize>> {
     let (units, tables) = (table.unit_id(), table.source_table());
     let (points, times) = (table.point_id(), table.t_s());

@@ -8,7 +8,7 @@ use crate::others::OtherFaults;
 use crate::report::FaultList;
 use crate::setup::StressRequest;
 
-/// Name and digest of the faults with their severities. `has_leds` is true if the sides of the LEDs are known.
+/// Name and digest of the tested faults and severities. `has_leds` is true if the sides of the LEDs of the sensor are known.
 pub(crate) fn list(
     faults: &[&'static Fault],
     request: &StressRequest,

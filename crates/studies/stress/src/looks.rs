@@ -1,4 +1,4 @@
-//! Checks of a recording, made on its pictures with a fault.
+//! Checks of a recording, applied to its pictures with a fault.
 
 use std::collections::BTreeSet;
 
@@ -7,16 +7,16 @@ use taceva_core::Frame;
 use taceva_core::random::fnv_1a;
 use taceva_dataset::Dataset;
 
-/// Statistics of a picture, which checks read.
+/// Statistics of a picture that the checks of a recording use.
 #[derive(Clone, Debug)]
 pub(crate) struct Look {
     facts: FrameFacts,
-    /// Hash of the bytes.
+    /// Hash of the bytes of the picture, which finds repeated pictures.
     hash: u64,
 }
 
 impl Look {
-    /// Statistics of `frame`, compared with the untouched picture.
+    /// Statistics of `frame`, also relative to the untouched picture `reference`, if any.
     pub(crate) fn of(frame: &Frame, reference: Option<&Frame>) -> Look {
         Look {
             facts: FrameFacts::without_tiles(frame, reference),
@@ -25,7 +25,7 @@ impl Look {
     }
 }
 
-/// Codes of the checks that find something in `looks`, the pictures of `rows` in order.
+/// Codes of the checks of a recording that find something in `looks`, the statistics of the pictures of `rows`.
 pub(crate) fn codes<'l>(
     dataset: &Dataset,
     rows: &[usize],

@@ -1,4 +1,4 @@
-//! Monitor of a sensor in use: untouched pictures are compared with earlier untouched pictures, and pictures of contact with the training pictures.
+//! Monitor of a sensor in use. Pictures without contact are compared with earlier ones, and pictures of contact with the training pictures.
 
 mod baseline;
 mod change;
@@ -23,26 +23,26 @@ use self::limit::{LEARNT, Limited, WINDOW};
 use self::lines::line_change;
 use crate::scale::Scale;
 
-/// Number of pictures whose mean is the baseline.
+/// Number of untouched pictures (pictures without contact) whose mean is the baseline.
 const SETTLED: u32 = 50;
-/// Least stimulus that counts as a change of pattern.
+/// Minimum change of pattern that is reported, as a ratio to the change by contact.
 const PATTERN: f64 = 0.1;
-/// Least stimulus that counts as a change of detail. Noise hides most of such a change.
+/// Minimum change of detail that is reported, as a ratio to the change by contact. Noise hides most of a change of detail.
 const DETAIL: f64 = 0.05;
-/// Least stimulus of one line between successive pictures that counts as a change of lines.
+/// Minimum change of one line between successive pictures that is reported, as a ratio to the change by contact.
 const LINES: f64 = 0.5;
-/// Stimulus of the baseline above which it differs from the reference. Flicker of a single reference picture is below this stimulus.
+/// Maximum accepted difference of the baseline from the reference picture, as a ratio to the change by contact. Flicker of one picture is below it.
 const REFERENCE: f64 = 1.0;
-/// Number of repeats among the newest pictures that counts as a change.
+/// Number of repeated pictures among the newest 30 that counts as a change.
 const REPEATS: usize = 3;
-/// Number of contact pictures unlike the training pictures, among the newest, that counts as a change.
+/// Number of pictures unlike the training pictures, among the newest 30 pictures of contact, that counts as a change.
 const OUTSIDE: usize = 20;
 
 /// Monitor of a sensor in use.
 ///
-/// The mean of the first 50 untouched pictures is the baseline, and the next 200 set the limits. From then on a change is found if at least 19 of the
-/// newest 30 untouched pictures, or their mean brightness, exceed a limit. A change is also found if a line of three of them differs strongly from
-/// this line in the previous picture. Each kind of change is reported once. After its remedy, create a new monitor.
+/// An untouched picture has no contact. The mean of the first 50 is the baseline, and the next 200 set the limits. A change is then found if at least
+/// 19 of the newest 30 untouched pictures, or their mean brightness, exceed a limit. It is also found if one line changes strongly from the previous
+/// picture, in three of them. Each kind of change is reported once. After its remedy, create a new monitor.
 ///
 /// ```
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};
@@ -77,7 +77,7 @@ pub struct Monitor {
     detail: Limited,
     lines: Limited,
     before: Option<Frame>,
-    /// True if a picture repeated the previous picture while the limits were set. Repeats are then no change.
+    /// True if a picture repeated the previous picture while the limits were set. Later repeats are then not reported.
     has_repeats: bool,
     repeats: Newest,
     training: Option<Training>,
@@ -98,7 +98,7 @@ struct Training {
     outside: Newest,
 }
 
-/// Marks of the newest pictures.
+/// Mark of each of the newest pictures, at most 30, such as "repeats the previous picture".
 #[derive(Clone, Debug, Default)]
 struct Newest(VecDeque<bool>);
 
@@ -116,10 +116,11 @@ impl Newest {
 impl Monitor {
     /// Number of untouched pictures that set the baseline and the limits.
     pub const PICTURES: usize = SETTLED as usize + LEARNT;
-    /// Least number of untouched pictures of a calibration that set the baseline and the limits. Their limits may be wider.
+    /// Minimum number of untouched pictures of a calibration from which a monitor learns. Limits from so few pictures may be wider.
     pub const LEAST_PICTURES: usize = 2 * SETTLED as usize;
 
-    /// A monitor with the untouched picture `reference` of the calibration. `contact` is the mean change of pictures by contact, a share of full scale.
+    /// Creates a monitor. `reference` is the untouched picture of the calibration. `contact` is the mean change of pictures by contact, a fraction of
+    /// full scale.
     ///
     /// # Errors
     /// [`EvaluateError::Request`] for an empty picture, or a change that is not above 0.
@@ -157,7 +158,8 @@ impl Monitor {
         })
     }
 
-    /// A monitor for the unit of `dataset`, the recording of its calibration: with its reference and its change by contact. Reads at most 33 pictures.
+    /// Creates a monitor for a sensor unit from `dataset`, the recording of its calibration, which has the reference picture and the change by
+    /// contact. Reads at most 33 pictures.
     ///
     /// # Errors
     /// [`EvaluateError::Request`] for several recordings, or a recording without a reference, pictures or contact. Errors of reading.
@@ -204,13 +206,14 @@ impl Monitor {
         })
     }
 
-    /// Number of untouched pictures until changes are found.
+    /// Number of further untouched pictures that the monitor needs before it can find changes.
     pub fn missing(&self) -> usize {
         let settled = SETTLED - self.settled;
         settled as usize + self.pattern.missing()
     }
 
-    /// Least stimulus of brightness, pattern, detail and single lines that is found. `None` while untouched pictures are [missing](Monitor::missing).
+    /// Minimum changes of brightness, pattern, detail and single lines that are found, as ratios to the change by contact. `None` while untouched
+    /// pictures are [missing](Monitor::missing).
     pub fn smallest(&self) -> Option<[f64; 4]> {
         Some([
             self.level.smallest()?,
@@ -220,7 +223,8 @@ impl Monitor {
         ])
     }
 
-    /// Expected number of false alarms in `pictures` untouched pictures, an upper bound for limits that 200 pictures set. Fewer pictures raise it.
+    /// Upper bound of the expected number of false alarms in `pictures` untouched pictures, if 200 pictures set the limits. With fewer, more false
+    /// alarms are expected.
     ///
     /// The bound assumes that untouched pictures do not drift and are exchangeable. Its brightness term assumes normally distributed flicker. Its
     /// pattern and detail terms hold for every distribution. It has no term for single lines: no alarm is expected if their noise has no outliers.
@@ -233,18 +237,18 @@ impl Monitor {
         2.0 * limit::false_alarms(pictures) + level::false_alarms(pictures)
     }
 
-    /// Number of untouched pictures, and of pictures of contact.
+    /// Numbers of untouched pictures and of pictures of contact that the monitor got so far.
     pub fn pictures(&self) -> [u64; 2] {
         [self.untouched, self.touched]
     }
 
-    /// Number of untouched pictures of the calibration; `None` unless the monitor was to [learn from it](Monitor::learn_from).
+    /// Number of untouched pictures of the calibration; `None` if [`learn_from`](Monitor::learn_from) was not called.
     pub fn calibration_pictures(&self) -> Option<usize> {
         self.calibration
     }
 
-    /// True if the pictures can show that nothing has changed: at least 30 untouched pictures were compared with the limits. If the monitor was to
-    /// learn from the calibration, the calibration must have enough untouched pictures.
+    /// True if "no change" is a valid result: at least 30 untouched pictures were compared with the limits. After
+    /// [`learn_from`](Monitor::learn_from), the calibration must also have enough untouched pictures.
     ///
     /// ```
     /// use taceva_core::{Frame, FrameInfo, PixelFormat};
@@ -258,7 +262,7 @@ impl Monitor {
         self.calibration.is_none_or(is_enough) && self.compared >= WINDOW as u64
     }
 
-    /// All changes found.
+    /// Kinds of change that the monitor has found so far.
     pub fn found(&self) -> &BTreeSet<Change> {
         &self.found
     }
@@ -328,7 +332,8 @@ impl Monitor {
         Ok(self.first(alarm.into_iter().collect()))
     }
 
-    /// Adds a picture to the baseline. Returns the stimulus of the finished baseline if it differs from the reference.
+    /// Adds a picture to the baseline. When the baseline is complete and differs from the reference, returns the difference, as a ratio to the change
+    /// by contact.
     fn settle(&mut self, frame: &Frame) -> Option<f64> {
         for (sum, number) in self.sums.iter_mut().zip(frame.samples()) {
             *sum += u32::from(number);
@@ -344,7 +349,7 @@ impl Monitor {
         (stimulus > REFERENCE).then_some(stimulus)
     }
 
-    /// Alarms of changes that were not found before.
+    /// Removes the alarms of kinds of change that were found before.
     fn first(&mut self, mut alarms: Vec<Alarm>) -> Vec<Alarm> {
         alarms.retain(|alarm| self.found.insert(alarm.change));
         alarms
@@ -361,7 +366,7 @@ impl Monitor {
     }
 }
 
-/// Rows with a picture.
+/// Rows of `dataset` with a picture.
 fn framed(dataset: &Dataset) -> Vec<usize> {
     let need = Need {
         frame: true,
@@ -370,7 +375,7 @@ fn framed(dataset: &Dataset) -> Vec<usize> {
     usable(dataset, &dataset.all_rows(), need)
 }
 
-/// `count` as a share of the newest pictures.
+/// Fraction of the newest 30 pictures that `count` pictures are.
 fn share(count: usize) -> f64 {
     count as f64 / WINDOW as f64
 }

@@ -8,7 +8,7 @@ use crate::report::ByChannel;
 use crate::score::{MAE, SKILL, Scored};
 use crate::setup::StressRequest;
 
-/// Notes on the limitations of the scores of `faults`. `clean` has the scores of `samples` predicted samples without a fault.
+/// Notes on the limitations of the scores of `faults`. `clean` has the scores without a fault, of `samples` predicted samples.
 pub(crate) fn notes(
     faults: &[&'static Fault],
     request: &StressRequest,
@@ -41,7 +41,7 @@ pub(crate) fn notes(
         .collect()
 }
 
-/// Notes on scores of `samples` predicted samples: on absent intervals and on absent labels, if any.
+/// Notes on absent intervals and on absent labels in the scores of `samples` predicted samples; `None` for a note that does not apply.
 pub(crate) fn of_scores(scored: &Scored, samples: usize) -> [Option<String>; 2] {
     let intervals = match scored.clusters() {
         Some(count) if count < LEAST_CLUSTERS => Some(format!(

@@ -3,7 +3,7 @@
 use crate::foreign::PictureFault;
 use crate::worn::WornFault;
 
-/// Faults that this crate does not make. Callers build it as a literal; it has no further fields.
+/// Faults that this crate does not make. Callers build this struct as a literal; it gets no further field.
 ///
 /// ```
 /// let none = taceva_stress::OtherFaults::default();
@@ -11,7 +11,7 @@ use crate::worn::WornFault;
 /// ```
 #[derive(Clone, Copy, Default)]
 pub struct OtherFaults<'a> {
-    /// Faults of gels.
+    /// Faults of a worn gel, each a recording on that gel.
     pub worn: &'a [WornFault],
     /// Faults of pictures that plugins make.
     pub foreign: &'a [&'a dyn PictureFault],

@@ -1,4 +1,4 @@
-//! One pass over the pictures: each is decoded once, goes through every fault, and is predicted.
+//! One pass over the pictures. Each picture is decoded once, then predicted without a fault and with every fault.
 
 use taceva_core::{Frame, Input};
 use taceva_dataset::{Dataset, Pass};
@@ -10,19 +10,19 @@ use crate::scale::difference;
 use crate::severity::Level;
 use crate::stress::Stress;
 
-/// A fault of one severity.
+/// Cell of the stress test: one fault at one severity.
 pub(crate) struct Cell<'m> {
-    /// Position of the fault in the list.
+    /// Index of the fault in the list of tested faults.
     pub(crate) fault: usize,
     pub(crate) level: Level,
-    /// The draws of the fault, at least one.
+    /// Random draws of the fault, at least one.
     pub(crate) draws: Vec<CellDraw<'m>>,
 }
 
-/// One draw of a fault.
+/// One random draw of a fault.
 pub(crate) struct CellDraw<'m> {
     pub(crate) stress: Stress<'m>,
-    /// Feature extractor with an untouched picture from after the fault; `None` if the model or the fault has no such picture.
+    /// Feature extractor with a new untouched picture, which has the fault; `None` if the model or the fault uses no such picture.
     fresh: Option<Extractor>,
 }
 
@@ -55,17 +55,17 @@ impl<'m> Cell<'m> {
         }
     }
 
-    /// The fault, if it repeats pictures.
+    /// Fault of the first draw, if it repeats pictures; `None` for other faults.
     fn repeating(&self) -> Option<&Stress<'m>> {
         let mut stresses = self.draws.iter().map(|draw| &draw.stress);
         stresses.find(|stress| stress.repeats())
     }
 }
 
-/// Name of the untouched picture, for the random numbers of a fault.
+/// Sample name that stands for the untouched picture when random numbers of a fault are drawn.
 pub(crate) const UNTOUCHED: &str = "untouched";
 
-/// Predictions without a fault, and of every cell. They stay in memory until all pictures are read, because each picture is decoded once.
+/// Predictions without a fault, and with the fault of every cell. They stay in memory until all pictures are read, because each is decoded once.
 ///
 /// # Shapes
 /// `[rows, draws, channels]`, row after row; one draw without a fault.
@@ -76,24 +76,24 @@ pub(crate) struct Predictions {
     pub(crate) cells: Vec<CellPredictions>,
 }
 
-/// Predictions of one cell.
+/// Predictions of one cell, which is a fault at one severity.
 #[derive(Clone, Default)]
 pub(crate) struct CellPredictions {
-    /// With the untouched picture from before the fault.
+    /// Predictions with the untouched picture from before the fault.
     pub(crate) stale: Vec<f64>,
-    /// With an untouched picture from after the fault; empty if there is none.
+    /// Predictions with a new untouched picture, which has the fault; empty if there is none.
     pub(crate) fresh: Vec<f64>,
     /// Statistics of each picture with the fault.
     ///
     /// # Shapes
     /// `[rows, draws]`.
     pub(crate) looks: Vec<Look>,
-    /// Sum over all pictures of their changes, each a mean over draws.
+    /// Sum over all pictures of their change by the fault, a mean over draws, as fractions of full scale.
     changes: f64,
 }
 
 impl CellPredictions {
-    /// Mean change of the pictures, a share of full scale.
+    /// Mean change by the fault over `rows` pictures, a fraction of full scale.
     pub(crate) fn change(&self, rows: usize) -> f64 {
         self.changes / rows as f64
     }
@@ -104,7 +104,7 @@ struct Row {
     frame: Frame,
     clean: Vec<f64>,
     look: Look,
-    /// Predictions of each cell; for a fault that repeats pictures, filled in row order.
+    /// Predictions of each cell. Those of a fault that repeats pictures are added later, in the order of the rows.
     cells: Vec<CellPredictions>,
 }
 
@@ -121,7 +121,7 @@ pub(crate) struct Predictor<'a> {
 }
 
 impl Predictor<'_> {
-    /// Unclamped predictions of one picture, or of the signals of one sample. Other samples have no influence.
+    /// Predictions from one picture, or from the signals of one sample, without limits on their range. They depend on no other sample.
     pub(crate) fn of<'i>(
         &self,
         input: impl Into<Input<'i>>,
@@ -134,7 +134,7 @@ impl Predictor<'_> {
         Ok(self.model.predict_unbounded(&features)?)
     }
 
-    /// Numbers of the picture `frame` of `sample`, at this share of the duration of the recording.
+    /// Predictions and statistics of the picture `frame` of `sample`. `share` is the time of the sample, a fraction of the duration of the recording.
     fn row(
         &self,
         sample: &str,
@@ -170,8 +170,8 @@ impl Predictor<'_> {
     }
 }
 
-/// Predictions of `rows`, which have pictures, without a fault and in each of `cells`. `shares` has the time of each row of the table, a share of the
-/// duration. `reference` is the untouched picture of the recording.
+/// Predictions of `rows`, which have pictures, without a fault and with the fault of each of `cells`. `shares` has the time of each row of the table,
+/// a fraction of the duration. `reference` is the untouched picture of the recording.
 pub(crate) fn predictions(
     dataset: &Dataset,
     model: &Model,

@@ -11,7 +11,7 @@ use crate::estimate::{Estimate, Undefined};
 /// Share of Student's t distribution below the upper end of a 95 % interval.
 pub(crate) const UPPER: f64 = 0.975;
 
-/// Absolute errors of some rows, summed by cluster.
+/// Absolute errors of predicted rows, summed by cluster (by default the samples of one contact point).
 #[derive(Clone, Debug)]
 pub(crate) struct Errors {
     total: f64,
@@ -58,12 +58,12 @@ impl Errors {
         self.clusters.as_ref().map(Vec::len)
     }
 
-    /// Mean error; `None` for no errors.
+    /// Mean absolute error over all rows with an error; `None` for no errors.
     pub(crate) fn mean(&self) -> Option<f64> {
         (self.count > 0).then_some(self.total / self.count as f64)
     }
 
-    /// For each cluster, the number of all errors divided by the number of errors in the cluster; empty if a row has no cluster.
+    /// Inverse share of each cluster: the number of all errors divided by the number of errors in the cluster. Empty if a row has no cluster.
     pub(crate) fn sizes(&self) -> Vec<f64> {
         let clusters = self.clusters.iter().flatten();
         clusters
@@ -71,15 +71,15 @@ impl Errors {
             .collect()
     }
 
-    /// Mean error outside of the cluster at `left`.
+    /// Mean absolute error over all rows except those of the cluster with the index `left`.
     pub(crate) fn mean_without(&self, left: usize) -> f64 {
         let clusters = self.clusters.as_deref().unwrap_or_default();
         let own = clusters[left];
         (self.total - own.sum) / (self.count - own.count) as f64
     }
 
-    /// Mean over `cells` of their errors minus the errors of `self`, summed by cluster; `None` if a cluster is unknown or has other samples in a cell, or if
-    /// a sum is not finite.
+    /// Errors of `cells`, as a mean over the cells, minus the errors of `self`, summed by cluster. `None` if a cluster is unknown or has other
+    /// samples in a cell, or if a sum is not finite.
     pub(crate) fn added_by(&self, cells: &[&Errors]) -> Option<ClusterSums> {
         let own = self.clusters.iter().flatten().enumerate();
         let sums = own.map(|(at, clean)| {
@@ -100,13 +100,13 @@ impl Errors {
         sums.collect()
     }
 
-    /// Relative change of the mean error if only the errors outside of the cluster at `left` remain.
+    /// Relative change of the mean error if the cluster with the index `left` is left out.
     fn change(&self, left: usize) -> f64 {
         self.mean_without(left) / (self.total / self.count as f64) - 1.0
     }
 }
 
-/// Mean over some cells of the ratios of their errors to the errors without a fault.
+/// Mean over `cells` of the ratio of the mean error in a cell to the mean error without a fault.
 ///
 /// To first order its logarithm changes by Σ r_c (δ_c − δ_0) / Σ r_c. Here r_c is the ratio of cell c. δ_c is the relative change of the mean error
 /// in cell c, and δ_0 that of the mean error without a fault. A cluster is left out of every cell and of the clean errors at once, because all errors
@@ -140,14 +140,14 @@ pub(crate) fn mean_ratio<'a>(
     Estimate::new(value, interval(value, &terms, clean))
 }
 
-/// A cell, and its share in a mean.
+/// Errors of a cell, and the weight of the cell in a mean.
 #[derive(Clone, Copy)]
 pub(crate) struct Share<'a> {
     pub(crate) errors: &'a Errors,
     pub(crate) share: f64,
 }
 
-/// Contribution of a cell to the value of a mean.
+/// Contribution of a cell to a weighted mean of ratios.
 struct Term<'a> {
     part: f64,
     errors: &'a Errors,
@@ -263,8 +263,8 @@ mod tests {
         radius * (std::f64::consts::TAU * open_unit(random.next_u64())).cos()
     }
 
-    /// True if the interval of `clusters` simulated contact points with five samples each contains the true ratio. Errors of a sample with and without
-    /// the fault are correlated, and a contact point has large errors or small ones.
+    /// Simulates `clusters` contact points with five samples each. True if the interval of the ratio contains the true ratio `truth`. Errors of a
+    /// sample with and without the fault are correlated, and a contact point has large errors or small ones.
     fn is_covered(random: &mut SplitMix64, clusters: u32, truth: f64) -> bool {
         let (mut clean, mut faulty, mut names) = (Vec::new(), Vec::new(), Vec::new());
         for cluster in 0..clusters {

@@ -1,4 +1,4 @@
-//! Errors that faults add, relative to the errors of a reference model.
+//! Errors that faults add to a model, relative to the errors that they add to a reference model.
 
 use taceva_core::counted;
 use taceva_dataset::Dataset;
@@ -15,7 +15,7 @@ use crate::report::{ByChannel, CleanScore, FaultReport, StressReport};
 use crate::setup::StressRequest;
 use crate::study::stress_beside;
 
-/// Greatest p value of a shown difference.
+/// Maximum p value of a significant difference.
 const LEVEL: f64 = 0.05;
 
 /// Adds to `report` its errors relative to the errors of `reference`. [`stress_beside`](crate::stress_beside) made `report` of the same request.
@@ -68,7 +68,7 @@ pub fn add_reference(
     Ok(())
 }
 
-/// Reason why a model takes no part in verdicts on `channel`: without skill, faults cannot add to its error.
+/// Reason why a model without skill in `channel` is not compared: faults cannot add to its error. `None` for a model with skill.
 fn without_skill(
     channel: &str,
     own: &ByChannel<CleanScore>,
@@ -84,14 +84,14 @@ fn without_skill(
     lacks_skill(reference).then_some("the reference model has no skill even without a fault")
 }
 
-/// Errors of a channel without a fault and at some severities of a fault.
+/// Errors of a channel without a fault, and at those severities of a fault that are compared.
 struct Excess<'a> {
     clean: &'a Errors,
     cells: Vec<&'a Errors>,
 }
 
 impl<'a> Excess<'a> {
-    /// Errors of `fault` at the severities that `other` has too; `None` if the channel is not scored.
+    /// Errors of `channel` with `fault`, at the severities that `other` also has; `None` if the channel is not scored.
     fn of(
         fault: &'a FaultReport,
         other: &FaultReport,
@@ -108,21 +108,21 @@ impl<'a> Excess<'a> {
         })
     }
 
-    /// Sum over the severities of the error that the fault adds to the mean error without a fault; `None` for no errors.
+    /// Sum over the severities of the mean error with the fault minus the mean error without a fault; `None` for no errors.
     fn sum(&self) -> Option<f64> {
         let clean = self.clean.mean()?;
         let added = self.cells.iter().map(|of| Some(of.mean()? - clean));
         added.sum()
     }
 
-    /// Sum as in `sum`, without the cluster at `left`.
+    /// Same as `sum`, without the samples of the cluster with the index `left`.
     fn without(&self, left: usize) -> f64 {
         let clean = self.clean.mean_without(left);
         let added = self.cells.iter().map(|of| of.mean_without(left) - clean);
         added.sum()
     }
 
-    /// True if the errors have this number of clusters at every severity.
+    /// True if the errors have `count` clusters at every severity.
     fn has_clusters(&self, count: usize) -> bool {
         let mut all = self.cells.iter().chain([&self.clean]);
         all.all(|of| of.clusters() == Some(count))
@@ -157,7 +157,8 @@ fn ratio(own: &Excess<'_>, reference: &Excess<'_>) -> Estimate {
     Estimate::new(added / by, interval(added / by, &sizes, left_out))
 }
 
-/// Error that a fault adds to the model minus the error that the fault adds to the reference model, by a paired sign-flip test over clusters.
+/// Error that a fault adds to the model minus the error that it adds to the reference model. A paired sign-flip test over clusters tests the
+/// difference.
 fn difference(own: &Excess<'_>, reference: &Excess<'_>, seed: u64) -> Result<Difference, String> {
     if own.cells.is_empty() {
         return Err(Undefined::NoSeverity.to_string());
@@ -173,7 +174,7 @@ fn difference(own: &Excess<'_>, reference: &Excess<'_>, seed: u64) -> Result<Dif
     tested.map_err(|reason| reason.to_string())
 }
 
-/// Note for a family of tests that could show no difference at any values, because it has too few patterns of signs; `None` for other families.
+/// Note for tests that can find no difference whatever the values, because so few clusters have too few patterns of signs; `None` for other tests.
 fn out_of_reach(tested: &[Result<Difference, String>]) -> Option<String> {
     let least = tested.iter().flatten().map(|of| of.test.least_p());
     let least: Vec<f64> = least.collect();
@@ -187,8 +188,8 @@ fn out_of_reach(tested: &[Result<Difference, String>]) -> Option<String> {
     })
 }
 
-/// 95 % interval of `value` by the jackknife over clusters. `left_out` returns the value without a cluster. `sizes` has the number of all errors
-/// divided by the number of errors of each cluster.
+/// 95 % interval of `value` by the jackknife over clusters. `left_out` returns the value without a cluster. `sizes` has, for each cluster, the number
+/// of all errors divided by the number of its errors.
 ///
 /// # Reference
 /// Busing, Meijer and van der Leeden, Delete-m jackknife for unequal m, Statistics and Computing 9 (1999).
@@ -216,7 +217,7 @@ fn interval(
 mod tests {
     use super::*;
 
-    /// Errors of two samples at each of six contact points: 1 N, and what a fault adds.
+    /// Errors of two samples at each of six contact points: 1 N plus the value of the contact point in `added`.
     fn errors(added: [f64; 6]) -> Errors {
         let rows = || added.iter().flat_map(|added| [added, added]).enumerate();
         let names: Vec<String> = rows().map(|(row, _)| format!("p{}", row / 2)).collect();

@@ -1,4 +1,4 @@
-//! Result of a stress test.
+//! Report of a stress test.
 
 use std::collections::BTreeMap;
 
@@ -12,20 +12,20 @@ use crate::faults::LISTS;
 use crate::ratio::Errors;
 use crate::severity::{By, Unreached};
 
-/// Schema of the result.
+/// Name and version of the JSON schema of the report.
 pub const STRESS_SCHEMA: &str = "taceva.stress/1.3";
 
-/// Numbers by the name of a channel or plane.
+/// Results by the name of a channel, such as `Fz`, or of a plane of two channels.
 pub type ByChannel<T> = BTreeMap<String, T>;
 
 /// Errors of a model on pictures or signals with faults.
 #[derive(Clone, Debug, Serialize)]
 pub struct StressReport {
-    /// Schema of the result.
+    /// Name and version of the schema of this report.
     pub schema: &'static str,
-    /// The sensor.
+    /// Sensor that was tested.
     pub subject: Subject,
-    /// Statement on samples that were not measured; `None` if all were.
+    /// Warning that some samples are simulated and not measured; `None` if all are measured.
     pub not_measured: Option<String>,
     /// Quantity that sets severity.
     pub by: By,
@@ -33,30 +33,30 @@ pub struct StressReport {
     pub list: FaultList,
     /// Seed of all faults.
     pub seed: u64,
-    /// Draws of the places of dead pixels, scratches, tears, dust and taxels.
+    /// Number of random draws of the positions of dead pixels, scratches, tears, dust and taxels.
     pub draws: u32,
     /// Number of predicted samples.
     pub samples: usize,
     /// Input of the model: `frame` or `signals`.
     pub input: &'static str,
-    /// Number of samples of the part that have no picture.
+    /// Number of samples of the scored part that have no picture.
     pub left_out: usize,
     /// Untouched picture or signals: `reference`, `least load`, or `none`.
     pub untouched: &'static str,
-    /// Mean change by contact: of pictures as a share of full scale, of signals in their unit; `None` if unknown.
+    /// Mean change of pictures by contact, a fraction of full scale, or of signals, in their unit; `None` if unknown.
     pub contact: Option<f64>,
     /// Unit of `contact`.
     pub contact_unit: &'static str,
     /// Unit of each channel.
     pub units: ByChannel<&'static str>,
-    /// Errors without a fault.
+    /// Errors without a fault, by channel.
     pub clean: ByChannel<CleanScore>,
     /// Faults, in the order of the list.
     pub faults: Vec<FaultReport>,
-    /// Mean degradation over all faults.
+    /// Degradation as a mean over all faults, each a mean over its severities.
     #[serde(rename = "mD")]
     pub mean: ByChannel<Estimate>,
-    /// Errors that a fault of pictures or signals at least doubles, although no check finds the fault. `None` for pictures without a reference.
+    /// Errors that are at least doubled by a fault of pictures or signals that no check finds. `None` for pictures without a reference.
     pub unnoticed: Option<Vec<Unnoticed>>,
     /// Skipped faults, with reasons.
     pub skipped: Vec<SkippedFault>,
@@ -65,7 +65,7 @@ pub struct StressReport {
     pub failed: Vec<SkippedFault>,
     /// Limitations of the scores, as sentences.
     pub notes: Vec<String>,
-    /// Origin of the numbers.
+    /// Origin of the scores: data, model and program.
     pub provenance: Provenance,
     /// Model to whose errors `relative_error` and `difference` of each fault refer; `None` without a reference model.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -75,14 +75,14 @@ pub struct StressReport {
     pub(crate) basis: Basis,
 }
 
-/// Scored rows, and their errors by contact point.
+/// Scored rows, and their errors without a fault by contact point.
 #[derive(Clone, Debug)]
 pub(crate) struct Basis {
     pub(crate) rows: Vec<usize>,
     pub(crate) clean: ByChannel<Errors>,
 }
 
-/// List of faults. Scores by different lists are not compared.
+/// List of faults. Scores of different lists are not compared.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct FaultList {
     /// Name with version, such as `gel-12/1`; the names of the faults if only some were requested.
@@ -94,32 +94,32 @@ pub struct FaultList {
 /// Errors of a channel without a fault.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CleanScore {
-    /// Mean absolute error.
+    /// Mean absolute error over the scored samples.
     pub mae: Estimate,
-    /// Skill over a constant prediction.
+    /// Skill relative to a constant prediction: above 0 if the model predicts better.
     pub skill: Estimate,
-    /// Metrics on request, by name.
+    /// Further metrics that the request names, by name.
     #[serde(skip_serializing_if = "ByChannel::is_empty")]
     pub metrics: ByChannel<Estimate>,
-    /// Mean absolute error of the constant prediction; `None` if unknown.
+    /// Mean absolute error of a constant prediction; `None` if unknown.
     pub constant: Option<f64>,
 }
 
 /// Errors of a channel with a fault.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CellScore {
-    /// Mean absolute error of predictions as the model gives them.
+    /// Mean absolute error of the predictions over the scored samples, however large.
     pub mae: Estimate,
-    /// Skill over a constant prediction.
+    /// Skill relative to a constant prediction: above 0 if the model predicts better.
     pub skill: Estimate,
-    /// Metrics on request, by name.
+    /// Further metrics that the request names, by name.
     #[serde(skip_serializing_if = "ByChannel::is_empty")]
     pub metrics: ByChannel<Estimate>,
-    /// Error divided by the error without the fault.
+    /// Degradation: the mean absolute error divided by that without the fault.
     pub degradation: Estimate,
-    /// The smaller of the error and the error of the constant prediction; `None` if one of them is unknown.
+    /// Mean absolute error, at most that of a constant prediction; `None` if one of them is unknown.
     pub capped: Option<f64>,
-    /// Least and greatest degradation of a single draw; `None` for one draw.
+    /// Least and greatest degradation among the random draws of the fault; `None` for one draw.
     pub spread: Option<[f64; 2]>,
 }
 
@@ -132,32 +132,33 @@ pub struct FaultReport {
     pub title: String,
     /// Meaning and unit of the parameter.
     pub parameter: String,
-    /// Limitation of the scores of the fault, for readers; `None` without a limitation.
+    /// Sentence about a limitation of the scores of the fault; `None` without a limitation.
     pub note: Option<String>,
     /// Severities that were tested.
     pub severities: Vec<SeverityReport>,
-    /// Severities that the fault cannot have on this sensor.
+    /// Severities that the fault cannot reach on this sensor.
     pub unreached: Vec<Unreached>,
-    /// Mean degradation over the tested severities, with an untouched picture from before the fault.
+    /// Degradation as a mean over the tested severities. The model uses the untouched picture from before the fault.
     #[serde(rename = "D")]
     pub mean: ByChannel<Estimate>,
-    /// Share of the excess error, in logarithms, that a new untouched picture removes.
+    /// Share of the excess error that a new untouched picture removes. Excess is the sum of the logarithms of degradation over the severities.
     pub recovers: ByChannel<Estimate>,
-    /// Least severity whose skill is no longer shown to be above 0; 6 if there is none, `None` if that is unknown.
+    /// Least severity at which the interval of the skill is not above 0; 6 if there is none, `None` if an interval is missing.
     pub breaks_at: ByChannel<Option<u8>>,
     /// Severity at which no channel has skill, if higher severities were left out for that reason. Means over severities are then lower bounds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stopped_at: Option<u8>,
-    /// Added error over all severities, divided by the added error of the reference model; `None` without a reference model.
+    /// Error that the fault adds over all severities, divided by the error that it adds to the reference model; `None` without a reference model.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relative_error: Option<ByChannel<Estimate>>,
-    /// Added error minus the added error of the reference model, as means over the severities of both; `None` without a reference model.
+    /// Error that the fault adds, minus the error that it adds to the reference model, each a mean over the severities of both reports; `None`
+    /// without a reference model.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub difference: Option<ByChannel<ErrorDifference>>,
-    /// Metrics of time without the fault; empty for a fault that leaves no rows out.
+    /// Metrics of the times of rows (such as the frame rate) without the fault; empty for a fault that removes no rows.
     #[serde(skip_serializing_if = "ByChannel::is_empty")]
     pub times: ByChannel<TimeScore>,
-    /// Errors by contact point of each of `severities`.
+    /// Errors by contact point, for each of `severities`.
     #[serde(skip)]
     pub(crate) errors: Vec<ByChannel<Errors>>,
 }
@@ -170,7 +171,7 @@ impl FaultReport {
     }
 }
 
-/// Value of a metric of time.
+/// Value of a metric of the times of rows, such as the frame rate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct TimeScore {
     /// The value; `None` if it is not defined.
@@ -186,11 +187,11 @@ pub struct SeverityReport {
     pub severity: u8,
     /// Parameter of the fault.
     pub parameter: f64,
-    /// Mean change of the scored pictures or signals, as a share of the change by contact; `None` if the change by contact is unknown.
+    /// Mean change of the scored pictures or signals by the fault, as a ratio to the change by contact; `None` if the change by contact is unknown.
     pub stimulus: Option<f64>,
     /// True if the stimulus is below 0.05, so that the fault hardly changes the pictures or signals.
     pub low_stimulus: bool,
-    /// Codes of the checks of pictures or taxels that find the fault in every draw, and find nothing without the fault.
+    /// Codes of the checks of pictures or taxels that find the fault in every random draw, and find nothing without the fault.
     pub check: Vec<&'static str>,
     /// Scores with an untouched picture from before the fault.
     pub stale: ByChannel<CellScore>,

@@ -7,7 +7,7 @@ use super::{lz4, zlib, zstd};
 use crate::error::Problem;
 
 const HEADER_BYTES: usize = 16;
-/// Maximum size of an element, bytes, and minimum number of elements of a block that is split into one stream per byte of an element.
+/// Maximum size of an element, bytes, with one stream per byte. `LEAST_ELEMENTS` is the minimum number of elements of such a block.
 const MOST_STREAMS: usize = 16;
 const LEAST_ELEMENTS: usize = 128;
 
@@ -139,7 +139,7 @@ impl Chunk<'_> {
     }
 }
 
-/// Little-endian number of 32 bits.
+/// Little-endian number of 32 bits at offset `at`; `None` beyond the end.
 fn number(bytes: &[u8], at: usize) -> Option<usize> {
     let bytes = bytes.get(at..at.checked_add(4)?)?;
     usize::try_from(u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])).ok()

@@ -1,6 +1,6 @@
 //! Index of the chunks of a dataset, checked against the chunk grid and the extent.
 //!
-//! `hdf5-pure` skips a chunk with a damaged key, and its elements would become the fill value without an error.
+//! Without this check, `hdf5-pure` would skip a chunk with a damaged key and return the fill value for its elements.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,7 @@ use super::problem;
 use crate::error::Problem;
 use crate::store::chunks_of;
 
-/// Result of reading an index.
+/// Numbers of written and missing chunks, as counted in the index of a dataset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ChunkIndex {
     /// Number of written chunks.

@@ -20,7 +20,7 @@ pub(crate) struct DataFrames {
     refused: Vec<(String, Problem)>,
 }
 
-/// Array that readers of the file see.
+/// Array that this crate lists for the file: a stored array, or a column of a data frame.
 #[derive(Debug)]
 struct Shown {
     name: String,
@@ -28,14 +28,14 @@ struct Shown {
     content: Content,
 }
 
-/// Location of the elements of a shown array.
+/// Location of the elements of a listed array.
 #[derive(Debug)]
 enum Content {
     /// Whole array of the file, by its index.
     Array(usize),
     /// Column of a block of numbers.
     Numbers(BlockColumn),
-    /// Column of a block of texts, which is stored as a pickle.
+    /// Column of a block of texts, whose block is stored as a pickle.
     Texts(BlockColumn),
 }
 

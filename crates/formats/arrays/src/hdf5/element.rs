@@ -38,7 +38,7 @@ pub(crate) fn item(datatype: &Datatype, reference_bytes: usize) -> Result<Item, 
     }
 }
 
-/// Position of a type within the element.
+/// Position of a type within the element of a dataset.
 #[derive(Clone, Debug, Default)]
 struct Place {
     name: String,

@@ -17,7 +17,7 @@ pub enum WrittenElement {
     I64,
     /// Numbers of single precision.
     F32,
-    /// Numbers of double precision; NaN for a missing value.
+    /// Numbers of double precision. A missing value is NaN.
     F64,
     /// UTF-8 texts of at most `bytes` bytes, padded with zeros.
     Text {

@@ -10,7 +10,7 @@ use crate::limits;
 use crate::source::{FileBytes, bytes_of};
 use crate::values::ArrayValues;
 
-/// Global heap of a file.
+/// Global heap of an HDF5 file, which stores variable-length values.
 #[derive(Debug)]
 pub(crate) struct GlobalHeap {
     file: Arc<FileBytes>,

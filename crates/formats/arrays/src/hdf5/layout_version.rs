@@ -6,9 +6,9 @@ use super::lookup3::lookup3;
 
 /// Type of the data layout message.
 const DATA_LAYOUT: u8 = 8;
-/// Greatest message type in the format specification of HDF5 4.0.
+/// Greatest type number of a header message in the format specification of HDF5 4.0.
 const LAST_MESSAGE: u8 = 0x18;
-/// Flags of an object header: order of creation, attribute thresholds, times.
+/// Flag of an object header that stores the creation order. `THRESHOLDS` and `TIMES` flag attribute thresholds and times.
 const ORDERED: u8 = 4;
 const THRESHOLDS: u8 = 16;
 const TIMES: u8 = 32;
@@ -36,7 +36,7 @@ pub(super) fn lower(block: &mut [u8]) {
     block[end..].copy_from_slice(&sum.to_le_bytes());
 }
 
-/// Offsets of the version bytes of layout messages of version 5.
+/// Offsets of the version bytes of layout messages of version 5 in `block`.
 fn layouts(block: &[u8]) -> Vec<usize> {
     match block {
         [b'O', b'H', b'D', b'R', 2, flags, ..] => {

@@ -6,16 +6,16 @@
 use crate::error::Problem;
 use crate::source::{ByteSource, FileBytes, bytes_of};
 
-/// Types of links.
+/// Type number of a soft link. `EXTERNAL` is that of an external link.
 const SOFT: u8 = 1;
 const EXTERNAL: u8 = 64;
-/// Search limit in a file, and size of a searched block, bytes.
+/// Number of bytes at the start of a file that are searched. `BLOCK` is the size of a block searched at once, bytes.
 const FURTHEST: u64 = 64 << 20;
 const BLOCK: u64 = 1 << 20;
-/// Maximum length of a supported message, bytes.
+/// Maximum length of a supported link message, bytes.
 const MESSAGE: u64 = 2 << 10;
 
-/// Problem of `name` if its last part is a link; `None` otherwise.
+/// Error for `name` if its last part is a link; `None` otherwise.
 pub(super) fn of(file: &FileBytes, name: &str) -> Option<Problem> {
     let leaf = name.rsplit('/').next().filter(|leaf| !leaf.is_empty())?;
     let length = u8::try_from(leaf.len()).ok()?;

@@ -21,7 +21,7 @@ pub(super) fn lookup3(bytes: &[u8]) -> u32 {
     c
 }
 
-/// Converts up to twelve bytes to three words, padded with zeros.
+/// Converts up to twelve bytes, padded with zeros, to three little-endian words.
 fn words(bytes: &[u8]) -> [u32; 3] {
     let mut padded = [0; 12];
     padded[..bytes.len()].copy_from_slice(bytes);

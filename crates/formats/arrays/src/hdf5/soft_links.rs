@@ -13,7 +13,7 @@ use crate::source::{FileBytes, bytes_of};
 
 /// Maximum nesting of groups, and of links to links.
 const DEPTH: usize = 16;
-/// Cache types of a symbol node entry: a group with its tree and heap, or a soft link with its target.
+/// Cache type of a symbol node entry for a group. `SOFT_LINK` is the cache type for a soft link.
 const GROUP: u32 = 1;
 const SOFT_LINK: u32 = 2;
 /// Size of an entry, bytes: offset of the name, address of the header, cache type, and 16 bytes of scratch space.
@@ -22,15 +22,15 @@ const ENTRY: usize = 40;
 /// Maximum size of a patch, bytes.
 pub(super) const LONGEST_PATCH: u64 = ENTRY as u64;
 
-/// Replacement bytes, by their offset in the file.
+/// Replacement bytes for parts of the file, by their offset.
 pub(super) type Patches = BTreeMap<u64, Vec<u8>>;
 
-/// Result of resolving the soft links of a file.
+/// Soft links of a file after they were resolved.
 #[derive(Default)]
 pub(super) struct Followed {
-    /// Patches that replace soft links by hard links, and remove dead links.
+    /// Patches of symbol nodes. They replace soft links by hard links, and remove dead links.
     pub(super) patches: Patches,
-    /// Dead and circular links, each with its error.
+    /// Dead and circular links by path, each with its error.
     pub(super) nowhere: Vec<(String, Problem)>,
 }
 
@@ -62,7 +62,7 @@ pub(super) fn followed(file: &FileBytes) -> Result<Followed, Problem> {
 struct Found<'f> {
     file: &'f FileBytes,
     base: u64,
-    /// Address of the object header of each object with a hard link, by path.
+    /// Address of the object header, by the path of each object that has a hard link.
     headers: BTreeMap<String, u64>,
     /// Soft links by path, with the location of the entry and the target.
     links: BTreeMap<String, SoftLink>,
@@ -176,7 +176,7 @@ impl Found<'_> {
         Ok(followed)
     }
 
-    /// Entries of a node after links became hard links. A dead link is removed, and later entries move up.
+    /// Adds the patches of a node whose links became hard links. A dead link is removed, and later entries move up.
     fn patch(
         &self,
         node: Node,

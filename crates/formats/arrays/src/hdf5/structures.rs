@@ -1,14 +1,14 @@
-//! Structures of an HDF5 file as bytes, for the writer: superblock 2, object headers 2, and their messages.
+//! Structures of an HDF5 file as bytes, for the writer: superblock and object headers of version 2, and header messages.
 
 use super::element_type::WrittenElement;
 use super::lookup3::lookup3;
 
 /// Size of the superblock, bytes. The first array follows the superblock.
 pub(super) const SUPERBLOCK_BYTES: usize = 48;
-/// Address that HDF5 defines as undefined.
+/// Address that marks missing content in HDF5.
 pub(super) const NOWHERE: u64 = u64::MAX;
 
-/// Layout message of `bytes` bytes of contiguous elements at the offset `at`.
+/// Layout message for contiguous elements of `bytes` bytes at the offset `at`.
 pub(super) fn contiguous(at: u64, bytes: u64) -> Vec<u8> {
     let at = if bytes == 0 { NOWHERE } else { at };
     [&[3, 1][..], &at.to_le_bytes(), &bytes.to_le_bytes()].concat()
@@ -22,14 +22,14 @@ pub(super) fn dataspace(shape: &[u64]) -> Vec<u8> {
     message
 }
 
-/// Texts of attributes in a collection of the global heap. Libraries then read the attributes as texts and not as bytes.
+/// Texts of attributes in a collection of the global heap. HDF5 libraries thus read the attributes as texts and not as bytes.
 #[derive(Debug, Default)]
 pub(super) struct Heap {
     objects: Vec<u8>,
     pub(super) count: u16,
 }
 
-/// Size of the header of a collection, and of the header of an object in a collection, bytes.
+/// Size of the header of a collection, bytes. The header of an object in a collection has the same size.
 const HEAP_HEADER: usize = 16;
 /// Minimum size of a collection, bytes.
 const HEAP_LEAST: usize = 4096;
@@ -85,7 +85,7 @@ pub(super) fn attribute(key: &str, bytes: usize, heap: u64, object: u16) -> (u8,
     (0x0c, message)
 }
 
-/// Link message to the object header at `at`, with the name in UTF-8.
+/// Message for a link `name` to the object header at the offset `at`.
 pub(super) fn link(name: &str, at: u64) -> Vec<u8> {
     let length = u8::try_from(name.len()).unwrap_or(u8::MAX);
     let mut message = vec![1, 0x10, 1, length];

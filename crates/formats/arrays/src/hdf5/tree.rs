@@ -10,7 +10,7 @@ use crate::limits;
 /// Maximum nesting of groups.
 const DEPTH: usize = 16;
 
-/// Found groups and datasets.
+/// Groups and datasets found in an HDF5 file.
 #[derive(Debug, Default)]
 pub(crate) struct Found {
     /// Size of a reference to a variable-length value, bytes.

@@ -6,12 +6,12 @@ use std::sync::{Mutex, PoisonError};
 use crate::error::Problem;
 use crate::limits;
 
-/// Unpacked size of each opened dataset, bytes.
+/// Unpacked size of each opened dataset by its index, bytes.
 #[derive(Debug, Default)]
 pub(super) struct UnpackedSizes(Mutex<BTreeMap<usize, u64>>);
 
 impl UnpackedSizes {
-    /// Adds the unpacked size `bytes` of the dataset `index`, in a file of `stored` bytes.
+    /// Records that the dataset `index` takes `bytes` bytes unpacked, in a file of `stored` bytes.
     ///
     /// # Errors
     /// [`Problem::TooLarge`] for a file that would exhaust memory or time. Nothing was unpacked.

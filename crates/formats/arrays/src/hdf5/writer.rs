@@ -1,8 +1,8 @@
 //! Writer of HDF5 files with contiguous arrays, one after another. Rows are written to the disk as they arrive. The metadata follows at the end.
 //!
 //! `hdf5-pure` is used for reading only. Its writer accepts an array of several axes only in memory, and a recording of pictures is larger. The
-//! output uses the minimum of HDF5 File Format Specification, version 3: superblock 2, object headers 2 with checksums, and links in the header of
-//! the root group. Every HDF5 library since 1.8 reads this format.
+//! output uses the minimum of HDF5 File Format Specification, version 3: superblock and object headers of version 2 with checksums, and links in the
+//! header of the root group. Every HDF5 library since 1.8 reads this format.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
@@ -45,7 +45,7 @@ pub struct Hdf5Writer {
     arrays: Vec<Written>,
 }
 
-/// Array in the written file.
+/// Array in the file under construction.
 #[derive(Debug)]
 struct Written {
     name: String,
@@ -145,7 +145,7 @@ impl Hdf5Writer {
         Ok(())
     }
 
-    /// Ends the file, with texts as attributes of the root group. Syncs the content to the disk, but not the name of the file.
+    /// Ends the file, with texts as attributes of the root group. Syncs the content of the file to the disk, but not its folder entry.
     ///
     /// # Errors
     /// [`Problem::Damaged`] if the last array is incomplete. [`Problem::Io`] if the file cannot be written.
@@ -220,7 +220,7 @@ impl Hdf5Writer {
         Ok(())
     }
 
-    /// Number of bytes missing from the last array.
+    /// Number of bytes that the caller must still write to complete the last array.
     fn left(&self) -> u64 {
         self.arrays
             .last()
@@ -234,7 +234,7 @@ impl Hdf5Writer {
         }
     }
 
-    /// Error for a last array with missing or excess bytes.
+    /// Error for a last array that got too few or too many bytes; `missing` is negative for excess bytes.
     fn not_all(&self, missing: i128) -> ArrayError {
         let array = self.arrays.last();
         let whole = array.map_or(0, |array| array.bytes);

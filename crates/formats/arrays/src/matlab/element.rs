@@ -1,4 +1,4 @@
-//! Elements of a MATLAB file: a tag with type and length, then the bytes, padded to a multiple of 8.
+//! Elements of a MATLAB file of version 5: a tag with type and length, then the bytes, padded to a multiple of 8.
 
 use crate::error::Problem;
 use crate::scalar::{Kind, Scalar};
@@ -9,7 +9,7 @@ pub(crate) const TYPE_UTF_16: u32 = 17;
 pub(crate) const TYPE_MATRIX: u32 = 14;
 pub(crate) const TYPE_COMPRESSED: u32 = 15;
 
-/// Offset of an element, and the byte order of the file.
+/// Offset of an element in a MATLAB file, and the byte order of the file.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
     pub(crate) at: u64,
@@ -27,7 +27,7 @@ pub(crate) struct Tag {
     pub(crate) next: u64,
 }
 
-/// Both numbers of a tag.
+/// Type and length in a tag.
 pub(crate) fn words(bytes: [u8; 8], is_big_endian: bool) -> (u32, u32) {
     let [a, b, c, d, e, f, g, h] = bytes;
     let word = if is_big_endian {
@@ -76,12 +76,12 @@ pub(crate) fn tag(source: &dyn ByteSource, place: Place) -> Result<Tag, Problem>
     })
 }
 
-/// Bytes of an element.
+/// Content bytes of the element with this tag.
 pub(crate) fn content(source: &dyn ByteSource, tag: &Tag) -> Result<Vec<u8>, Problem> {
     bytes_of(source, tag.data_at, tag.end - tag.data_at)
 }
 
-/// Number type with this MATLAB type code; `None` for other codes.
+/// Numeric element type of the MATLAB type code `kind`; `None` for other codes.
 pub(crate) fn scalar(kind: u32, is_big_endian: bool) -> Option<Scalar> {
     let (kind, bytes) = match kind {
         1 => (Kind::Signed, 1),

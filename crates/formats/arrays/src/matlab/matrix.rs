@@ -13,7 +13,7 @@ pub(crate) struct Matrix {
     pub(crate) flags: u32,
     pub(crate) shape: Vec<u64>,
     pub(crate) name: String,
-    /// Offset of the start of the content, and offset of its end.
+    /// Location of the content after the header. `end` is the offset of its end, bytes.
     pub(crate) content: Place,
     pub(crate) end: u64,
     pub(crate) next: u64,
@@ -107,14 +107,14 @@ pub(crate) fn matrix(source: &dyn ByteSource, place: Place) -> Result<Matrix, Pr
     })
 }
 
-/// Number of elements of a shape; `None` if it exceeds 64 bits.
+/// Product of the axis lengths `sides`; `None` if it exceeds 64 bits.
 pub(crate) fn product(sides: &[u64]) -> Option<u64> {
     sides
         .iter()
         .try_fold(1_u64, |product, side| product.checked_mul(*side))
 }
 
-/// Signed number of 4 bytes; `None` if it is negative.
+/// First 4 bytes as a signed number; `None` if it is negative or bytes are missing.
 pub(crate) fn number(bytes: &[u8], is_big_endian: bool) -> Option<u64> {
     let bytes = *bytes.first_chunk::<4>()?;
     let number = if is_big_endian {
@@ -125,7 +125,7 @@ pub(crate) fn number(bytes: &[u8], is_big_endian: bool) -> Option<u64> {
     u64::try_from(number).ok()
 }
 
-/// Name before its zero padding.
+/// Text before the first zero byte, escaped for messages.
 pub(crate) fn text_of(bytes: &[u8]) -> String {
     let end = bytes
         .iter()

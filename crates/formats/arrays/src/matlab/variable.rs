@@ -74,8 +74,8 @@ impl Variable {
     }
 }
 
-/// Joins cells of the same shape and type to one array, whose first axes are the axes of the cell matrix. Cells with a single number or a single text
-/// add no axes.
+/// Joins cells of the same shape and type to one array. Its first axes are those of the cell matrix. Cells of a single number or text add no further
+/// axes.
 pub(crate) fn cells_of(shape: &[u64], cells: Vec<Variable>) -> Result<Variable, Problem> {
     let Some(first) = cells.first() else {
         return Err(Problem::unsupported(

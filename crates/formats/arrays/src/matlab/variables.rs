@@ -14,7 +14,7 @@ const CLASS_CELL: u32 = 1;
 const CLASS_STRUCTURE: u32 = 2;
 const CLASS_TEXT: u32 = 4;
 
-/// Found variables.
+/// Variables found in a MATLAB file of version 5.
 #[derive(Debug, Default)]
 pub(crate) struct Found {
     pub(crate) variables: Vec<(String, Variable)>,
@@ -28,7 +28,7 @@ impl Found {
         (self.variables.len() + self.refused.len()) as u64
     }
 
-    /// Adds the matrix at `place`. `within` is the name of the structure that contains it.
+    /// Adds the matrix at `place` to the variables. `within` is the name of the structure that contains it, empty at the top level.
     pub(crate) fn matrix(
         &mut self,
         source: &Arc<dyn ByteSource>,

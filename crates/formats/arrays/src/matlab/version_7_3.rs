@@ -12,7 +12,7 @@ use crate::source::{ByteSource, FileBytes};
 use crate::store::{Arrays, Store};
 use crate::values::{ArrayData, ArrayValues};
 
-/// File of version 7.3.
+/// MATLAB file of version 7.3.
 #[derive(Debug)]
 pub(crate) struct Matlab73 {
     variables: Vec<Variable>,
@@ -29,7 +29,7 @@ struct Variable {
     turned: ColumnMajor,
 }
 
-/// Elements of a dataset as bytes, in HDF5 row order.
+/// Elements of an HDF5 dataset as bytes, row by row.
 #[derive(Debug)]
 struct DatasetBytes {
     hdf5: Arc<Hdf5>,
@@ -168,7 +168,7 @@ impl Store for Matlab73 {
     }
 }
 
-/// Converts character codes to lines of text.
+/// Converts UTF-16 character codes to `count` lines of equal length.
 fn lines(codes: ArrayValues, count: u64) -> Result<ArrayValues, Problem> {
     let wrong = || Problem::unsupported("a string that is not Unicode", "save strings as UTF-8");
     let ArrayValues::U16(codes) = codes else {

@@ -17,7 +17,7 @@ fn unknown(at: u64, global: &str) -> Problem {
     )
 }
 
-/// Value of `global(*arguments)`.
+/// Value constructed for the call `global(*arguments)` in a pickle.
 pub(crate) fn call(
     machine: &mut Machine<'_>,
     global: Id,
@@ -78,7 +78,7 @@ pub(crate) fn call(
     }
 }
 
-/// Effect of `object.__setstate__(state)`.
+/// Constructs the value of `object` after the call `object.__setstate__(state)` in a pickle.
 pub(crate) fn build(
     machine: &mut Machine<'_>,
     object: Id,
@@ -166,7 +166,7 @@ fn array(
     }))
 }
 
-/// Bytes of a text. Protocol 2 writes bytes as Latin-1 text.
+/// Bytes of `text` in the encoding `coding`. A pickle of protocol 2 writes bytes as Latin-1 text.
 fn encode(machine: &mut Machine<'_>, text: Id, coding: Id, at: u64) -> Result<Value, Problem> {
     let coding = machine.text(coding);
     let Value::Text(letters) = machine.value(text).clone() else {

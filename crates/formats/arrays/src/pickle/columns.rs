@@ -22,19 +22,19 @@ pub(crate) enum Cells {
     Array(PickledArray),
     /// Consecutive arrays of the same shape and type.
     Arrays(Vec<PickledArray>),
-    /// Plain values.
+    /// Numbers or texts that are not in an array, by their ids.
     Plain { element: Element, ids: Vec<Id> },
 }
 
-/// Values of a pickle, with a limited number of visits.
+/// Values of a pickle, and a limit on the number of visits to them.
 pub(crate) struct Values<'a> {
     pub(crate) values: &'a [Value],
-    /// Number of visits left. Lists that contain the same list several times could otherwise need exponentially many visits.
+    /// Remaining number of visits to values. Lists that contain the same list several times could otherwise need exponentially many visits.
     left: u64,
     text: &'a dyn Fn(&Bytes) -> Option<String>,
 }
 
-/// Columns, and the values that are not columns, each with the reason.
+/// Columns of a pickle, and the values that are not columns, each with the reason.
 pub(crate) type Found = (Vec<Column>, Vec<(String, Problem)>);
 
 impl<'a> Values<'a> {
@@ -250,7 +250,7 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// Shape and cells of values of one kind, or of lists of these values with equal lengths.
+    /// Shape and cells of the list `values`. All values are of one kind, or lists of equal length of such values.
     fn list(&mut self, values: &[Id]) -> Result<(Vec<u64>, Cells), Problem> {
         self.look_at(values.len())?;
         let arrays = values.iter().map_while(|id| match self.value(*id) {
@@ -349,7 +349,7 @@ impl<'a> Values<'a> {
     }
 }
 
-/// Bytes in memory as a separate source; `None` for bytes in the file.
+/// Bytes that are in memory; `None` for bytes in the file.
 pub(crate) fn held(bytes: &Bytes) -> Option<Arc<Vec<u8>>> {
     match bytes {
         Bytes::Held(bytes) => Some(Arc::clone(bytes)),

@@ -1,9 +1,9 @@
-//! Names that a pickle may use. The reader never calls them, but constructs their values itself.
+//! Names of classes and functions that a pickle may use. The reader never calls them, but constructs their values itself.
 
 use crate::error::Problem;
 use crate::scalar::shown;
 
-/// Module, name, and internal name of each known global.
+/// Module, name, and internal name of each known class or function.
 const KNOWN: &[(&str, &str, &str)] = &[
     ("numpy", "ndarray", "ndarray"),
     ("numpy", "dtype", "dtype"),
@@ -19,7 +19,7 @@ const KNOWN: &[(&str, &str, &str)] = &[
     ("collections", "OrderedDict", "OrderedDict"),
 ];
 
-/// Internal name of a global. Returns an error with the name for an unknown global.
+/// Internal name of a known class or function. Returns an error with the name if it is unknown.
 pub(crate) fn known(module: &str, name: &str, at: u64) -> Result<&'static str, Problem> {
     let found = KNOWN
         .iter()
@@ -33,7 +33,7 @@ pub(crate) fn known(module: &str, name: &str, at: u64) -> Result<&'static str, P
         })
 }
 
-/// Remedy for the program that wrote the object of this module.
+/// Advice on how to write an object of this module without a pickle of its class.
 fn mend(module: &str) -> &'static str {
     match module.split('.').next() {
         Some("pandas") => {

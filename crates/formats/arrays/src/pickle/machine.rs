@@ -10,7 +10,7 @@ use crate::error::Problem;
 use crate::limits;
 use crate::source::{ByteSource, bytes_of};
 
-/// Values of a pickle under construction.
+/// State of a pickle machine: the values under construction, the stack and the memo.
 #[derive(Debug)]
 pub(crate) struct Machine<'a> {
     pub(crate) source: &'a dyn ByteSource,
@@ -18,12 +18,12 @@ pub(crate) struct Machine<'a> {
     /// Number of bytes converted from texts. The length of the file limits this number.
     pub(crate) held_bytes: u64,
     stack: Vec<Id>,
-    /// Heights of the stack at which groups begin.
+    /// Stack heights at which the open groups of values begin.
     marks: Vec<usize>,
     memo: BTreeMap<u32, Id>,
 }
 
-/// Maximum length of the name of a module or a global, bytes.
+/// Maximum length of the name of a module, class or function, bytes.
 const NAME_BYTES: usize = 1_024;
 
 /// Runs the pickle that begins at `at`. Returns its values and the id of the result.
@@ -92,7 +92,7 @@ impl Machine<'_> {
             .ok_or_else(|| wrong(at, "an operation without its value"))
     }
 
-    /// Pops the values above the last mark.
+    /// Pops the last mark and the stack values above it.
     fn group(&mut self, at: u64) -> Result<Vec<Id>, Problem> {
         let height = self
             .marks
@@ -103,7 +103,7 @@ impl Machine<'_> {
             .ok_or_else(|| wrong(at, "a group without a beginning"))
     }
 
-    /// Pops the last `count` values.
+    /// Pops the last `count` values of the stack.
     fn last(&mut self, count: usize, at: u64) -> Result<Vec<Id>, Problem> {
         let least = self.marks.last().copied().unwrap_or(0);
         let height = self
@@ -190,7 +190,7 @@ impl Machine<'_> {
         self.push(Value::Global(global))
     }
 
-    /// Pushes bytes or text of `length` bytes, which are left in the file.
+    /// Pushes the location of bytes or text of `length` bytes, without reading them.
     fn long(&mut self, length: u64, is_text: bool, cursor: &mut Cursor<'_>) -> Result<(), Problem> {
         let bytes = Bytes::InFile {
             at: cursor.pass(length)?,

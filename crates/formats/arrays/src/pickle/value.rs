@@ -13,7 +13,7 @@ pub(crate) type Id = u32;
 pub(crate) enum Bytes {
     /// Bytes in the file, which are not read yet.
     InFile { at: u64, length: u64 },
-    /// Bytes in memory, from protocol 2, which writes bytes as text.
+    /// Bytes in memory. A pickle of protocol 2 writes bytes as text, which was converted.
     Held(Arc<Vec<u8>>),
 }
 
@@ -47,7 +47,7 @@ pub(crate) enum Content {
     Objects(Id),
 }
 
-/// Type of an array, possibly under construction.
+/// Element type of an array. The byte order of a `Named` type is not known yet.
 #[derive(Clone, Debug)]
 pub(crate) enum DType {
     /// Name of a type without its byte order, such as `f8`.
@@ -68,7 +68,7 @@ pub(crate) enum Value {
     List(Vec<Id>),
     Tuple(Vec<Id>),
     Dictionary(Vec<(Id, Id)>),
-    /// Internal name of a known global.
+    /// Internal name of a known class or function.
     Global(&'static str),
     DType(DType),
     Array(PickledArray),

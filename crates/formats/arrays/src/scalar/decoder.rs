@@ -69,7 +69,7 @@ impl Scalar {
 
     /// Appends the numbers in `raw`.
     fn extend(self, values: &mut ArrayValues, raw: &[u8]) -> Result<(), Problem> {
-        /// Appends elements of `N` bytes, each converted by one of the two functions, which is inlined into the loop.
+        /// Appends elements of `N` bytes, converted by `little` or `big` according to the byte order. The function is inlined into the loop.
         fn each<const N: usize, T>(
             all: &mut Vec<T>,
             raw: &[u8],
@@ -113,7 +113,7 @@ impl Scalar {
         Ok(())
     }
 
-    /// Fields of equal length as texts, or as bytes if any field is not text. h5py writes the JPEG files of a recording in this form.
+    /// Fields of equal length as texts, or as bytes if any field is not text. h5py writes JPEG files as such fields.
     fn texts_or_bytes(self, raw: &[u8], count: usize, filler: Filler) -> ArrayValues {
         let fields = (0..count).map(|place| {
             let bytes = &raw[place * self.bytes..(place + 1) * self.bytes];
@@ -165,7 +165,7 @@ fn length_of(bytes: &[u8], filler: Filler) -> usize {
     }
 }
 
-/// Decodes UTF-32 up to the zero padding.
+/// Decodes UTF-32 up to the zero padding. `of` reads a code in the byte order of the type.
 fn utf32(bytes: &[u8], of: fn([u8; 4]) -> u32) -> Option<String> {
     let (codes, _) = bytes.as_chunks::<4>();
     let end = codes

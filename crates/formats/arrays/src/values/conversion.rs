@@ -5,7 +5,7 @@ use crate::element::Element;
 use crate::error::Problem;
 
 impl ArrayValues {
-    /// Empty list with capacity for `count` elements.
+    /// Empty list of values of the type `element`, with capacity for `count` values.
     pub(crate) fn with_capacity(element: Element, count: usize) -> ArrayValues {
         match element {
             Element::Bool => ArrayValues::Bool(Vec::with_capacity(count)),

@@ -1,4 +1,4 @@
-//! Chunked array of zarr, in either version.
+//! Chunked array of a zarr store, version 2 or 3.
 
 use serde_json::Value;
 
@@ -16,17 +16,17 @@ pub(crate) struct ZarrArray {
     /// Lengths of the axes of a chunk. Chunks at an edge are stored in full size.
     pub(crate) chunk: Vec<u64>,
     pub(crate) item: Item,
-    /// Bytes of one element of the fill value; `None` if there is none.
+    /// Bytes of the fill value; `None` if the array has none.
     pub(crate) fill: Option<Vec<u8>>,
     /// Codecs of a chunk, in the order in which a writer applies them.
     pub(crate) codecs: Vec<Codec>,
-    /// Prefix of the name of a chunk.
+    /// Prefix of the names of chunk files.
     pub(crate) prefix: &'static str,
     pub(crate) separator: char,
 }
 
 impl ZarrArray {
-    /// File name of the chunk at `place`.
+    /// File name of the chunk at the grid position `place`.
     pub(crate) fn key(&self, place: &[u64]) -> String {
         let numbers: Vec<String> = place.iter().map(u64::to_string).collect();
         let numbers = numbers.join(&self.separator.to_string());
@@ -38,7 +38,7 @@ impl ZarrArray {
         }
     }
 
-    /// True if `name` is the file name of a chunk within the shape.
+    /// True if `name` is the file name of a chunk that lies within the shape of the array.
     pub(crate) fn is_key(&self, name: &str) -> bool {
         let numbers = name.strip_prefix(self.prefix).unwrap_or(name);
         let numbers = numbers.trim_start_matches(self.separator);
@@ -71,7 +71,7 @@ impl ZarrArray {
         bytes.filter(|bytes| *bytes <= limits::CHUNK_BYTES)
     }
 
-    /// Rejects impossible shapes and chunks.
+    /// Rejects an array if its numbers of axes and chunk lengths differ, or if its chunks are empty or too large.
     pub(crate) fn check(self) -> Result<ZarrArray, Problem> {
         let is_grid = self.shape.len() == self.chunk.len()
             && self.shape.len() <= limits::AXES
@@ -99,7 +99,7 @@ impl ZarrArray {
         Ok(self)
     }
 
-    /// Reverses the codecs of a chunk, the last codec first.
+    /// Unpacks the bytes of a chunk by reversing its codecs, the last codec first.
     pub(crate) fn unpack(&self, packed: Vec<u8>) -> Result<Vec<u8>, Problem> {
         let bytes = usize::try_from(self.chunk_bytes().unwrap_or(0)).unwrap_or(0);
         let mut chunk = packed;
@@ -128,7 +128,7 @@ impl ZarrArray {
     }
 }
 
-/// Parses lengths of axes.
+/// Parses the lengths of axes under `key` of the metadata.
 pub(crate) fn lengths(metadata: &Value, key: &str) -> Result<Vec<u64>, Problem> {
     let sides = metadata
         .as_array()

@@ -7,7 +7,7 @@ use crate::scalar::shown;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Codec {
-    /// Transposition of the axes to this order.
+    /// Transposition: the numbers of the array axes in their stored order, slowest first.
     Transposed(Vec<usize>),
     Gzip,
     Zlib,
@@ -18,7 +18,7 @@ pub(crate) enum Codec {
 }
 
 impl Codec {
-    /// Codec with this name in either version.
+    /// Codec with this name in zarr version 2 or 3.
     pub(crate) fn from_name(name: &str) -> Result<Codec, Problem> {
         match name.trim_start_matches("numcodecs.") {
             "gzip" => Ok(Codec::Gzip),
@@ -34,12 +34,12 @@ impl Codec {
         }
     }
 
-    /// True if only the compressed chunk itself determines the output length.
+    /// True for compression, whose output length depends on the compressed chunk.
     pub(crate) fn is_packing(&self) -> bool {
         !matches!(self, Codec::Transposed(_) | Codec::Crc32c)
     }
 
-    /// Reverses the codec for a chunk with these sides and elements. Rejects an output of more than `most` bytes.
+    /// Reverses the codec for a chunk with the axis lengths `sides` and elements of `item_bytes` bytes. Rejects an output of more than `most` bytes.
     pub(crate) fn undo(
         &self,
         chunk: Vec<u8>,
@@ -59,7 +59,7 @@ impl Codec {
     }
 }
 
-/// Verifies and removes the checksum (CRC-32C, little-endian) after the bytes.
+/// Verifies and removes the checksum (CRC-32C, little-endian) at the end of a chunk.
 fn without_sum(mut chunk: Vec<u8>) -> Result<Vec<u8>, Problem> {
     let at = chunk.len() as u64;
     let Some((bytes, sum)) = chunk.split_last_chunk::<4>() else {

@@ -27,7 +27,7 @@ pub(crate) fn fill(value: &Value, item: &Item) -> Option<Vec<u8>> {
     }
 }
 
-/// Floating-point number that JSON cannot express, by its name.
+/// Floating-point number by its name: NaN and infinities, which JSON cannot express as numbers.
 fn float(text: &str) -> Option<f64> {
     match text {
         "NaN" => Some(f64::NAN),
@@ -37,7 +37,7 @@ fn float(text: &str) -> Option<f64> {
     }
 }
 
-/// Decodes base64, in which version 2 writes texts and records.
+/// Decodes a base64 fill value, as zarr version 2 writes it for texts and records.
 fn bytes(text: &str, item: &Item) -> Option<Vec<u8>> {
     let bytes = BASE64_STANDARD.decode(text).ok()?;
     (bytes.len() == item.bytes).then_some(bytes)

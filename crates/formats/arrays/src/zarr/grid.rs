@@ -47,7 +47,7 @@ impl Grid {
         &self.shape
     }
 
-    /// Range of chunk indices along each axis.
+    /// Range of the indices of needed chunks along each axis.
     fn ranges(&self) -> impl Iterator<Item = Range<u64>> {
         self.wanted.iter().zip(&self.chunk).map(|(wanted, side)| {
             if wanted.is_empty() {
@@ -88,7 +88,7 @@ impl Grid {
         Ok(raw)
     }
 
-    /// Positions of the chunks in the grid, with the last axis fastest.
+    /// Grid positions of the needed chunks, with the last axis fastest.
     pub(crate) fn places(&self) -> Vec<Vec<u64>> {
         let mut places = vec![Vec::new()];
         for range in self.ranges() {
@@ -125,7 +125,7 @@ impl Grid {
     }
 }
 
-/// Copies a block, axis by axis. The last axis is contiguous.
+/// Copies a block from a chunk to the requested rows, axis by axis. The last axis is contiguous.
 fn block(
     raw: &mut [u8],
     chunk: &[u8],

@@ -1,4 +1,4 @@
-//! Metadata of a folder, in either version.
+//! Metadata of a folder of a zarr store, version 2 or 3.
 
 use serde_json::Value;
 
@@ -8,7 +8,7 @@ use super::{version_2, version_3};
 use crate::error::Problem;
 use crate::limits;
 
-/// Metadata of one folder.
+/// Metadata of one folder of a zarr store.
 #[derive(Debug, Default)]
 pub(crate) struct Node {
     pub(crate) is_group: bool,

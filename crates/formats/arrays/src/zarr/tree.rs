@@ -11,25 +11,25 @@ use crate::member_bytes::{Budget, Packed, PackedBytes};
 use crate::scalar::shown;
 use crate::source::{ByteSource, FileBytes, bytes_of};
 
-/// Folder of a store.
+/// Folder of a zarr store.
 #[derive(Clone, Debug)]
 pub(crate) enum Tree {
     Folder(PathBuf),
     Archive(Archive),
 }
 
-/// Folder within an archive.
+/// Folder within a ZIP archive.
 #[derive(Clone, Debug)]
 pub(crate) struct Archive {
     file: Arc<FileBytes>,
-    /// Members by path. Of several members with the same path the last is used, as in appended ZIP archives.
+    /// Archive members by path. Of several members with the same path the last is used, as in appended ZIP archives.
     members: Arc<BTreeMap<String, Packed>>,
     /// Path of the folder with a trailing `/`; empty for the root.
     folder: String,
 }
 
 impl Tree {
-    /// Opens the store at `path`.
+    /// Opens the zarr store at `path`.
     pub(crate) fn open(path: &Path) -> Result<Tree, Problem> {
         if fs::metadata(path).map_err(Problem::io("open"))?.is_dir() {
             return Ok(Tree::Folder(path.to_owned()));
@@ -162,7 +162,7 @@ impl Tree {
 }
 
 impl Archive {
-    /// Paths of the members below this folder, relative to the folder.
+    /// Paths of the archive members below this folder, relative to the folder.
     fn below(&self) -> impl Iterator<Item = &str> {
         let from = self.members.range(self.folder.clone()..);
         from.map_while(|(path, _)| path.strip_prefix(&self.folder))

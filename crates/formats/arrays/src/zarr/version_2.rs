@@ -1,4 +1,4 @@
-//! Metadata of version 2: `.zarray`.
+//! Metadata of zarr version 2: `.zarray`.
 
 use serde_json::Value;
 
@@ -61,7 +61,7 @@ pub(crate) fn array(metadata: &Value) -> Result<ZarrArray, Problem> {
     .check()
 }
 
-/// Type in the form in which NumPy writes it.
+/// Converts a `dtype` in JSON to the literal that NumPy writes.
 fn literal(value: &Value, depth: usize) -> Result<Literal, Problem> {
     let wrong = || Problem::damaged(0, format!("`dtype`: {value}"), "a type of NumPy");
     match value {

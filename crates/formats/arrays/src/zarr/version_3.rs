@@ -1,4 +1,4 @@
-//! Metadata of version 3: `zarr.json`.
+//! Metadata of zarr version 3: `zarr.json`.
 
 use serde_json::Value;
 

@@ -56,7 +56,7 @@ fn files(folder: &Path, into: &mut Vec<PathBuf>) {
     }
 }
 
-/// Damages `bytes` in several ways and passes each result to `look`.
+/// Damages `bytes` in several ways. Calls `look` with a description and the bytes of each result.
 pub(crate) fn damaged(bytes: &[u8], seed: u64, mut look: impl FnMut(&str, &[u8])) {
     for sixth in 0..6 {
         look(

@@ -1,4 +1,4 @@
-//! Tests of pandas data frames in the fixed format (`tests/data/pandas/make.py`). Blocks become columns.
+//! Tests of pandas data frames in the fixed format (`tests/data/pandas/make.py`). Blocks of columns become separate arrays.
 
 use taceva_arrays::{ArrayFile, ArrayFormat, ArrayValues};
 

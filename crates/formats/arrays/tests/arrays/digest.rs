@@ -24,12 +24,12 @@ pub(crate) const SHARED: [&str; 15] = [
     "zarr-v3",
 ];
 
-/// Folder of the files that only these tests use.
+/// Folder of the test files of this crate.
 pub(crate) fn data() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data")
 }
 
-/// File or folder of these tests or, if it does not exist, of the shared recordings.
+/// Test file or folder `name` of this crate or, if it does not exist, of the shared recordings.
 pub(crate) fn at(name: impl AsRef<Path>) -> PathBuf {
     let own = data().join(&name);
     match own.exists() {
@@ -38,7 +38,7 @@ pub(crate) fn at(name: impl AsRef<Path>) -> PathBuf {
     }
 }
 
-/// Adds the elements: numbers little-endian, texts and bytes after a letter and their length.
+/// Adds the elements to the digest: numbers little-endian, texts and bytes after a letter and their length.
 fn add(sum: &mut Sha256, values: &ArrayValues) {
     macro_rules! numbers {
         ($values:expr) => {

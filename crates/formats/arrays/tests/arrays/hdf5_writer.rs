@@ -1,4 +1,4 @@
-//! Tests that HDF5 files of the writer can be read by this crate. h5py reads them in the tests of `taceva-import`.
+//! Tests that this crate reads the HDF5 files of its writer. h5py reads them in the tests of `taceva-import`.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! Tests of damage and excess in files of arrays: checksums of members, keys of chunks, unpacked sizes.
+//! Tests of damaged and oversized files of arrays: checksums of members, keys of chunks, unpacked sizes.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -77,7 +77,7 @@ fn a_flip_in_any_member_that_is_read_is_refused_by_its_sum() {
     }
 }
 
-/// Damage that affects only part of the labels.
+/// Flips one bit after the NumPy header, and reads only the first row.
 #[test]
 fn the_first_rows_of_a_damaged_member_are_refused_too() {
     let whole = fs::read(at("npz-stored/run.npz")).expect("readable");
@@ -137,7 +137,7 @@ fn no_flip_in_an_index_of_chunks_makes_a_chunk_vanish() {
     }
 }
 
-/// Compares with h5py, which rejects the file.
+/// h5py rejects the same file.
 #[cfg(feature = "hdf5")]
 #[test]
 fn a_chunk_whose_key_lies_off_the_grid_is_named() {

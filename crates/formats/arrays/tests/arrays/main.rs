@@ -1,4 +1,4 @@
-//! Tests with files of other libraries, compared with the values that those libraries read (`tests/data/make.py`).
+//! Tests with files of other libraries. Values must equal those that the other library reads (`tests/data/make.py`).
 
 mod damage;
 #[cfg(feature = "hdf5")]

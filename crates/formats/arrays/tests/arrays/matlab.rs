@@ -1,4 +1,4 @@
-//! Tests of content that only MATLAB writes and no Python library, and of errors.
+//! Tests of content that MATLAB writes and Python libraries do not, and of errors.
 
 use std::fs;
 
@@ -6,7 +6,7 @@ use taceva_arrays::{ArrayFile, ArrayFormat, ArrayValues};
 
 use crate::digest::at;
 
-/// File of version 5 with one matrix. `word` gives the byte order of all numbers.
+/// MATLAB file of version 5 with one matrix, in either byte order.
 fn file(is_big_endian: bool, class: u32, shape: [u32; 2], content: &[u8]) -> Vec<u8> {
     let word = |number: u32| {
         if is_big_endian {

@@ -148,7 +148,7 @@ fn a_text_that_is_encoded_again_and_again_is_refused() {
     );
 }
 
-/// Creates an `.npy` file of objects whose elements are this pickle.
+/// Creates an `.npy` file of objects, whose content is the bytes `pickle`.
 fn of_objects(pickle: &[u8]) -> Vec<u8> {
     let mut header = b"{'descr': '|O', 'fortran_order': False, 'shape': (1,), }".to_vec();
     header.resize(117, b' ');

@@ -8,7 +8,7 @@ use taceva_arrays::{ArrayFile, ArrayFormat, ArrayValues};
 
 use crate::digest::{at, hex};
 
-/// For each recording: its folder, file and array of the pictures, file and array of the wrench.
+/// Recordings: folder, file and array of the pictures, file and array of the wrench (forces and torques).
 const RECORDINGS: &[(&str, &str, &str, &str, &str)] = &[
     ("npy-fortran", "frames.npy", "value", "ft.npy", "value"),
     ("npz-stored", "run.npz", "images", "run.npz", "ft"),

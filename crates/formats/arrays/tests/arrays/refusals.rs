@@ -97,7 +97,7 @@ fn shapes_beyond_64_bits_are_refused_whatever_is_zero_in_them() {
     }
 }
 
-/// Archive with one deflated member, which consists of zeros.
+/// Archive with one deflated member of zeros. Its directory states `stated` inflated bytes.
 fn archive_of_zeros(stated: u64, packed: &[u8]) -> Vec<u8> {
     let name = b"bomb.npy";
     let small = |size: u64| {

@@ -195,7 +195,7 @@ fn a_shape_that_would_fill_a_memory_is_refused() {
     assert!(write("[4,-4]", "[4,4]").contains("list of lengths"));
 }
 
-/// ZIP archive of stored members in the given order.
+/// ZIP archive of uncompressed members in the given order.
 fn zip(members: &[(&str, &[u8])]) -> Vec<u8> {
     let mut archive = Vec::new();
     let mut directory = Vec::new();

@@ -8,15 +8,15 @@ use crate::flatbuffer::Table;
 use crate::limits;
 use crate::source::Source;
 
-/// Types of supported messages.
+/// Type number of a schema message. `RECORDS` is that of a record batch.
 pub(super) const SCHEMA: u8 = 1;
 pub(super) const RECORDS: u8 = 3;
 /// Marker before the length of a message, since Arrow 0.15.
 const CONTINUED: u32 = u32::MAX;
 
-/// Message: its metadata, and the location of its body.
+/// Message of an Arrow stream: its metadata, and the location of its body.
 pub(super) struct Message {
-    /// Offset of the first byte in the file.
+    /// Offset of the message in the file, bytes.
     pub(super) at: u64,
     pub(super) kind: u8,
     metadata: Vec<u8>,
@@ -25,7 +25,7 @@ pub(super) struct Message {
 }
 
 impl Message {
-    /// Reads the message at `at` and advances `at` past it. Returns `None` at the end marker.
+    /// Reads the message at `at` and advances `at` past it. Returns `None` at the marker that ends the stream.
     pub(super) fn next(
         source: &Source,
         file: &mut File,
@@ -101,7 +101,7 @@ pub(super) struct Buffer {
 }
 
 impl Batch {
-    /// Batch in a message. The schema has `buffers` buffers.
+    /// Parses the record batch in a message. Each batch of the schema has `buffers` buffers.
     pub(super) fn new(message: &Message, first: u64, buffers: usize) -> Result<Batch, String> {
         let header = message.header()?;
         let rows =

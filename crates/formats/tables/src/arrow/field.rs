@@ -18,7 +18,7 @@ pub(super) struct Schema {
 #[derive(Clone, Debug)]
 pub(super) struct Field {
     pub(super) name: String,
-    /// Index of its first buffer, which is the validity buffer if the field has one.
+    /// Index of the first buffer of the field. This is the validity buffer if the field has one.
     pub(super) buffer: usize,
     pub(super) kind: FieldKind,
 }
@@ -27,9 +27,9 @@ pub(super) struct Field {
 pub(super) enum FieldKind {
     Null,
     Bool,
-    /// Numbers with this many bytes each.
+    /// Numbers: the size of each in bytes, and its meaning.
     Fixed(usize, Number),
-    /// Texts or bytes of any length, with offsets of 4 or 8 bytes.
+    /// Texts or bytes of any length. Their offsets have 4 or 8 bytes.
     Bytes {
         is_text: bool,
         offset: usize,
@@ -63,7 +63,7 @@ const UNITS: [&str; 4] = ["s", "ms", "us", "ns"];
 const REMEDY: &str = "write Parquet: `ds.to_parquet(\"table.parquet\")` of datasets, `pyarrow.parquet.write_table(table, \
     \"table.parquet\")`";
 
-/// Parses the schema in the header of a message. The error names the unsupported part and the remedy.
+/// Parses the schema in the header of an Arrow message. The error names the unsupported part and the remedy.
 pub(super) fn schema(header: Table<'_>) -> Result<Schema, String> {
     if header.short(0).is_some_and(|order| order != 0) {
         return Err(format!(
@@ -93,7 +93,7 @@ pub(super) fn schema(header: Table<'_>) -> Result<Schema, String> {
     })
 }
 
-/// Numbers of fields and buffers that were parsed.
+/// Numbers of fields and buffers parsed so far.
 struct Made {
     buffers: usize,
     fields: usize,
@@ -138,7 +138,7 @@ impl Made {
         Ok(Field { name, buffer, kind })
     }
 
-    /// Kind of a field without its children, and number of buffers that belong to the field itself.
+    /// Kind of a field without its children, and the number of buffers of the field without those of its children.
     fn kind(&self, field: Table<'_>, name: &str) -> Result<(Flat, usize), String> {
         let own = field.table(3);
         let short = |number, otherwise| own.and_then(|own| own.short(number)).unwrap_or(otherwise);
@@ -259,7 +259,7 @@ impl Made {
     }
 }
 
-/// Kind of a field without its children.
+/// Kind of a field. Its children are parsed later.
 enum Flat {
     Leaf(FieldKind),
     Struct,
@@ -268,7 +268,7 @@ enum Flat {
 }
 
 impl Field {
-    /// The field as a node of the schema tree that Parquet columns have. Names, kinds and paths of columns are computed from it; all levels are 0.
+    /// Field as a node of the schema tree that Parquet columns use, so that names, kinds and paths are computed in one place. All levels are 0.
     pub(super) fn node(&self) -> Node {
         let leaf = |kind| NodeKind::Leaf {
             column: self.buffer,
@@ -304,7 +304,7 @@ impl Field {
     }
 }
 
-/// Field at the start of `name`, restricted to the members of structures that `name` selects.
+/// Column that `name` begins with. Of a structure, only the member that `name` selects is kept.
 pub(super) fn named(fields: &[Field], name: &str) -> Option<Field> {
     let names = fields.iter().map(|field| field.name.as_str());
     let (at, rest) = longest(name, names)?;

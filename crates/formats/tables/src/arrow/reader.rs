@@ -12,13 +12,13 @@ use crate::limits;
 use crate::scalar::{decimal, half, nanoseconds_in};
 use crate::source::Source;
 
-/// Reader of the cells of a batch.
+/// Reader of the cells of a record batch.
 pub(super) struct Reader<'t> {
     source: &'t Source,
     file: File,
     batch: &'t Batch,
     name: &'t str,
-    /// Unpacked buffers, by index.
+    /// Unpacked buffers by their index in the batch.
     unpacked: BTreeMap<usize, Vec<u8>>,
     /// Memory left for further cells, bytes.
     pub(super) left: u64,
@@ -40,7 +40,7 @@ impl<'t> Reader<'t> {
         })
     }
 
-    /// Cells of `count` entries of a field, starting at entry `begin`.
+    /// Cells of `count` entries of `field`, from the entry with the index `begin` on.
     pub(super) fn cells(
         &mut self,
         field: &Field,
@@ -157,7 +157,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// End offsets of `count` entries from entry `begin` on, relative to the start of the first entry.
+    /// End of each of `count` entries from entry `begin` on, bytes or elements after the start of the first entry.
     fn offsets(
         &mut self,
         index: usize,
@@ -174,7 +174,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// Bits of `count` entries from entry `begin` on.
+    /// Bits of `count` entries from entry `begin` on, in the buffer `index`.
     fn bits(&mut self, index: usize, begin: u64, count: u64) -> Result<Vec<bool>, TableError> {
         let (first, end) = (begin / 8, (begin + count).div_ceil(8));
         let bytes = self.buffer(index, first, end - first)?;
@@ -200,7 +200,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// `count` bytes of a buffer, starting at byte `begin`.
+    /// Reads `count` bytes of the buffer `index`, from byte `begin` on.
     fn buffer(&mut self, index: usize, begin: u64, count: u64) -> Result<Vec<u8>, TableError> {
         if count == 0 {
             return Ok(Vec::new());
@@ -273,7 +273,7 @@ fn unpacked(codec: codec::Codec, packed: &[u8]) -> Result<Vec<u8>, String> {
     }
 }
 
-/// Number of up to 16 bytes as a cell. Opaque types may have any length.
+/// Converts a number of up to 16 bytes to a cell. Opaque values may have any length.
 fn cell(raw: &[u8], number: Number) -> Cell {
     match number {
         Number::Signed => Cell::Integer(signed(raw)),
@@ -299,7 +299,7 @@ fn signed(raw: &[u8]) -> i128 {
     bytes.fold(sign, |value: i128, byte| (value << 8) | i128::from(*byte))
 }
 
-/// Little-endian number in up to 8 bytes.
+/// Converts up to 8 little-endian bytes to a number.
 fn unsigned(raw: &[u8]) -> u64 {
     let bytes = raw.iter().rev();
     bytes.fold(0, |value: u64, byte| (value << 8) | u64::from(*byte))

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 /// Greatest 12-bit code of a depth map.
 const LAST_CODE: u16 = 4095;
-/// Keys of the parameters, except the key for logarithmic codes.
+/// Keys of the parameters of depth codes in `meta/info.json`, without the key for logarithmic codes.
 const PARAMETERS: [&str; 3] = ["video.depth_min", "video.depth_max", "video.shift"];
 const LOGARITHMIC: &str = "video.use_log";
 
@@ -30,8 +30,8 @@ pub struct DepthCodes {
 }
 
 impl DepthCodes {
-    /// Codes of distances in the range `ends_m`, m. Logarithmic codes are linear in ln(d + `shift_m`) for a distance d in metres. `None` if the range
-    /// is empty, negative or not finite, or the logarithm is undefined.
+    /// Creates 4096 codes for distances in the range `ends_m`, m. Logarithmic codes are linear in ln(d + `shift_m`) for a distance d in metres.
+    /// `None` if the range is empty, negative or not finite, or the logarithm is undefined.
     pub fn new(ends_m: [f64; 2], shift_m: f64, is_logarithmic: bool) -> Option<DepthCodes> {
         let [least_m, greatest_m] = ends_m;
         let are_finite = ends_m
@@ -84,7 +84,7 @@ impl DepthCodes {
     }
 }
 
-/// Codes of a depth feature, from its key `info`. The error names the missing key.
+/// Distances of the codes of a depth feature, from its key `info`. The error names the missing key.
 pub(super) fn codes(feature: &Value) -> Result<DepthCodes, String> {
     let own = |key: &str| {
         ["info", "video_info"]

@@ -1,4 +1,4 @@
-//! Episodes and tasks: JSON lines in version 2.1, Parquet files in version 3.
+//! Descriptions of episodes and tasks of a LeRobot dataset: JSON lines in version 2.1, Parquet files in version 3.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use crate::error::{Place, TableError};
 use crate::parquet::ParquetTable;
 use crate::source::Source;
 
-/// Path of the episode descriptions in version 3.
+/// Path pattern of the files that describe episodes in version 3 of LeRobot.
 const EPISODES: &str = "meta/episodes/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet";
 
 /// Part of a video file that contains one episode.
@@ -20,11 +20,11 @@ const EPISODES: &str = "meta/episodes/chunk-{chunk_index:03d}/file-{file_index:0
 pub(super) struct Clip {
     pub(super) chunk: u64,
     pub(super) file: u64,
-    /// Start of the episode in the file, s.
+    /// Start of the episode in the video file, s.
     pub(super) from: f64,
 }
 
-/// Indices of the episodes in version 2.1, in the order of the lines.
+/// Indices of the episodes in a dataset of version 2.1, in the order of the lines in `meta/episodes.jsonl`.
 pub(super) fn of_lines(folder: &Path) -> Result<Vec<u64>, TableError> {
     let (source, lines) = json_lines(folder, "meta/episodes.jsonl")?;
     lines
@@ -38,7 +38,7 @@ pub(super) fn of_lines(folder: &Path) -> Result<Vec<u64>, TableError> {
         .collect()
 }
 
-/// Number of rows of each episode, if stated, and the path of the file that states it.
+/// Stated number of rows by episode index, with the path of the file that states it.
 pub(super) fn lengths(
     folder: &Path,
     is_in_lines: bool,
@@ -74,7 +74,7 @@ pub(super) fn lengths(
     Ok(lengths)
 }
 
-/// Clips of the video `key` in version 3, by episode.
+/// Parts of the video files of `key` in version 3, by episode index.
 pub(super) fn clips(folder: &Path, key: &str) -> Result<BTreeMap<u64, Clip>, TableError> {
     let mut clips = BTreeMap::new();
     for table in tables(folder)? {

@@ -15,7 +15,7 @@ use crate::parquet::{WrittenColumn, WrittenKind};
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct WrittenFeature {
-    /// Name, without `/`, and kind of the cells.
+    /// Name and kind of the cells. The name contains no `/`.
     pub column: WrittenColumn,
     /// Shape of the feature in one row. For a picture: height, width and colours.
     pub shape: Vec<u64>,
@@ -26,7 +26,7 @@ pub struct WrittenFeature {
 }
 
 impl WrittenFeature {
-    /// Feature of this shape with unnamed elements. A list of one number is written as a number, because LeRobot reads the list in that form.
+    /// Creates a feature of this shape with unnamed elements. A list of one number is written as a number, as LeRobot expects.
     pub fn new(column: WrittenColumn, shape: impl IntoIterator<Item = u64>) -> WrittenFeature {
         WrittenFeature {
             column,

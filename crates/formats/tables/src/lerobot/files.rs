@@ -29,7 +29,7 @@ pub(super) fn inside(folder: &Path, path: &Path) -> Result<PathBuf, TableError> 
     }
 }
 
-/// Content of a metadata file, bytes.
+/// Source and bytes of the metadata file `name`.
 fn description(folder: &Path, name: &str) -> Result<(Source, Vec<u8>), TableError> {
     let source = Source::new(&inside(folder, name.as_ref())?)?;
     let mut file = source.open()?;
@@ -37,7 +37,7 @@ fn description(folder: &Path, name: &str) -> Result<(Source, Vec<u8>), TableErro
     Ok((source, bytes))
 }
 
-/// Parsed value of a JSON file.
+/// Source and parsed content of the JSON file `name`.
 pub(super) fn json_file(folder: &Path, name: &str) -> Result<(Source, Value), TableError> {
     let (source, bytes) = description(folder, name)?;
     let json = serde_json::from_slice(&bytes);
@@ -46,7 +46,7 @@ pub(super) fn json_file(folder: &Path, name: &str) -> Result<(Source, Value), Ta
     Ok((source, json))
 }
 
-/// Parsed values of a file of JSON lines, each with the byte offset of its line.
+/// Source of a file of JSON lines, and its parsed values, each with the byte offset of its line.
 pub(super) fn json_lines(
     folder: &Path,
     name: &str,

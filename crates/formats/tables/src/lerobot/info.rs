@@ -7,12 +7,12 @@ use super::pattern::Pattern;
 use crate::error::{Place, TableError, shown};
 use crate::source::Source;
 
-/// Supported layouts.
+/// Supported layouts of a LeRobot dataset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Layout {
-    /// One file per episode, described by JSON lines.
+    /// Version 2.1: one data file per episode, and JSON lines that describe the episodes.
     V21,
-    /// Episodes in shared files, described by Parquet files.
+    /// Version 3.0: data files shared by episodes, and Parquet files that describe the episodes.
     V30,
 }
 
@@ -32,7 +32,7 @@ pub struct Feature {
     pub fps: f64,
     /// True for a depth map. Its 12-bit codes are distances, not brightness.
     pub is_depth: bool,
-    /// Distances of the codes; `None` if the feature does not state them or is not a depth map.
+    /// Distances of the codes of a depth map; `None` if the feature does not state them or is not a depth map.
     pub depth: Option<DepthCodes>,
 }
 
@@ -43,7 +43,7 @@ pub(super) struct Info {
     pub(super) video: Option<Pattern>,
     pub(super) chunks_size: u64,
     pub(super) features: Vec<Feature>,
-    /// Depth maps with unknown codes, each with the reason.
+    /// Names of depth maps whose codes have unknown distances, each with the reason.
     pub(super) unknown_depths: Vec<(String, String)>,
 }
 
@@ -134,7 +134,7 @@ pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
     })
 }
 
-/// Texts in a list, or in a dictionary of lists: `["x", "y"]`, `{"motors": ["x", "y"]}`.
+/// Names of a feature in `info.json`: a list of texts, or lists in a dictionary, such as `{"motors": ["x", "y"]}`.
 fn names(written: &Value) -> Vec<String> {
     let lists: Vec<&Value> = match written {
         Value::Object(lists) => lists.values().collect(),

@@ -1,4 +1,4 @@
-//! Tasks and episodes in the format of LeRobot 3.0, one Parquet file each.
+//! Writer of the descriptions of tasks and episodes of a LeRobot 3.0 dataset, one Parquet file each.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use crate::cell::Cell;
 use crate::error::TableError;
 use crate::parquet::{ParquetWriter, WrittenColumn, WrittenKind};
 
-/// Number columns of `meta/episodes`, in order. `tasks` follows the first.
+/// Names of the columns of numbers in `meta/episodes`, in order. The column `tasks` comes after the first.
 const NUMBERS: [&str; 8] = [
     "episode_index",
     "length",
@@ -21,7 +21,7 @@ const NUMBERS: [&str; 8] = [
     "meta/episodes/file_index",
 ];
 
-/// Writes the texts of tasks to `path`, as the index of a pandas data frame, because LeRobot searches the texts there.
+/// Writes the texts of tasks to `path` as the index of a pandas data frame, where LeRobot searches them.
 pub(super) fn describe_tasks(path: &Path, tasks: &[String]) -> Result<(), TableError> {
     const INDEX: &str = "__index_level_0__";
     let column = |name: &str, field: &str, kind: [&str; 2]| json!({ "name": (name != INDEX).then_some(name), "field_name": field, "pandas_type": kind[0], "numpy_type": kind[1], "metadata": null });

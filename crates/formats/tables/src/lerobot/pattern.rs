@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::error::shown;
 use crate::limits;
 
-/// Path pattern: alternating texts and named fields.
+/// Path pattern: texts and named fields in sequence.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Pattern {
     parts: Vec<Part>,
@@ -15,14 +15,14 @@ pub(super) struct Pattern {
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Part {
     Text(String),
-    /// Named field. A number is padded to this many digits.
+    /// Named field. A number is padded with zeros to `digits` digits.
     Value {
         name: String,
         digits: usize,
     },
 }
 
-/// Value of a named field.
+/// Value that replaces a named field of a pattern.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Value<'a> {
     Number(u64),
@@ -30,7 +30,7 @@ pub(super) enum Value<'a> {
 }
 
 impl Pattern {
-    /// Parses `text`. Returns an error message if the text is not a pattern of relative paths.
+    /// Parses the pattern `text`. Returns an error message if the text is not a pattern of relative paths.
     pub(super) fn parse(text: &str) -> Result<Pattern, String> {
         let wrong = || {
             format!(
@@ -97,7 +97,7 @@ impl Pattern {
         }
     }
 
-    /// Files in `folder` that match the pattern, with a number for each field, sorted by these numbers.
+    /// Files in `folder` that match the pattern. Each named field matches a number, and the files are sorted by these numbers.
     pub(super) fn files(&self, folder: &Path) -> Result<Vec<PathBuf>, std::io::Error> {
         let mut found = vec![(Vec::new(), PathBuf::new())];
         for component in self.components() {
@@ -125,7 +125,7 @@ impl Pattern {
         Ok(found.into_iter().map(|(_, path)| path).collect())
     }
 
-    /// Parts between slashes.
+    /// Texts and fields of each path component, which lies between slashes.
     fn components(&self) -> Vec<Vec<Part>> {
         let mut components = vec![Vec::new()];
         for part in &self.parts {
@@ -150,7 +150,7 @@ impl Pattern {
     }
 }
 
-/// Numbers in `name` at the fields of `component`; `None` if the name does not match.
+/// Numbers in the file name `name` at the fields of `component`; `None` if the name does not match.
 fn matches(component: &[Part], name: &str) -> Option<Vec<u64>> {
     let mut rest = name;
     let mut numbers = Vec::new();

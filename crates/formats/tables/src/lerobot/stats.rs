@@ -1,9 +1,9 @@
-//! Statistics of a feature over all rows, for `meta/stats.json`.
+//! Statistics of a feature over all rows of a LeRobot dataset, for `meta/stats.json`.
 
 use serde_json::{Value, json};
 
 /// Minimum, maximum, mean and standard deviation of each element of a feature, in the unit of the feature. Policies normalise data by these
-/// statistics. The statistics are not scores, and rounding errors accumulate with each row.
+/// statistics. They run over all added rows and pixels. They are not scores, and rounding errors accumulate with each row.
 ///
 /// ```
 /// use taceva_tables::FeatureStats;
@@ -26,7 +26,7 @@ struct Element {
     least: f64,
     greatest: f64,
     mean: f64,
-    /// Sum of squared deviations from the mean (Welford 1962).
+    /// Sum of squared deviations of the numbers from their mean (Welford 1962).
     squares: f64,
 }
 
@@ -60,7 +60,7 @@ impl FeatureStats {
         }
     }
 
-    /// Adds the pixels of a picture, with the elements of each pixel in sequence. A picture counts as one row.
+    /// Adds the pixels of a picture. `numbers` contains the colours of the first pixel, then of the second, and so on. A picture counts as one row.
     pub fn add_picture(&mut self, numbers: impl IntoIterator<Item = f64>) {
         let length = self.elements.len().max(1);
         let rows = self.rows + 1;
@@ -79,12 +79,13 @@ impl FeatureStats {
         self.rows
     }
 
-    /// Mean of each element; 0 for an element without a finite number.
+    /// Mean of each element over its finite numbers; 0 for an element without any.
     pub fn mean(&self) -> Vec<f64> {
         self.elements.iter().map(|element| element.mean).collect()
     }
 
-    /// Statistics in the form of `meta/stats.json`; `None` if an element has no finite number. Elements of a picture are lists of lists.
+    /// Statistics in the form of `meta/stats.json`; `None` if an element has no finite number. Each element of a picture is a list in a list, such as
+    /// `[[0.5]]`.
     pub(super) fn json(&self, is_picture: bool) -> Option<Value> {
         let is_seen = self.elements.iter().all(|element| element.count > 0.0);
         if !is_seen || self.elements.is_empty() {

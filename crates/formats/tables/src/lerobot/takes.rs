@@ -1,5 +1,5 @@
-//! Checks the rows of each episode against its description. Without this check, two recordings with the same episode number would both get the
-//! pictures of the first recording.
+//! Checks the rows of each episode against its description. Without this check, two recordings with the same episode number would get the same
+//! pictures, those of the first recording.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::cell::Cell;
 use crate::error::{Place, TableError};
 use crate::source::Source;
 
-/// Rows of one continuous recording of an episode in the data files.
+/// Continuous recording of one episode in the data files.
 #[derive(Clone, Copy)]
 struct Take {
     rows: u64,

@@ -1,4 +1,4 @@
-//! Video file and frame of each row.
+//! Video file and frame of each row of a LeRobot dataset.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -34,7 +34,7 @@ impl VideoFrames {
         Some((self.files.get(file as usize)?, frame))
     }
 
-    /// Files, in the order in which the rows first use them.
+    /// Video files, in the order in which the rows first use them.
     pub fn files(&self) -> &[PathBuf] {
         &self.files
     }
@@ -91,15 +91,15 @@ pub(super) fn frames(dataset: &LeRobot, key: &str) -> Result<VideoFrames, TableE
     })
 }
 
-/// Video files that the rows use.
+/// Video files that the rows of a dataset use.
 struct Files<'a> {
     key: &'a str,
     pattern: &'a Pattern,
     chunks_size: u64,
-    /// Clips of episodes in shared files; `None` if each episode has its own file.
+    /// Parts of shared files by episode; `None` if each episode has its own file.
     clips: Option<BTreeMap<u64, Clip>>,
     paths: Vec<PathBuf>,
-    /// File of each episode, and start of the episode in the file, s.
+    /// For each episode: the index of its file, and the start of the episode in the file, s.
     places: BTreeMap<u64, (u32, f64)>,
 }
 
@@ -156,7 +156,7 @@ impl Files<'_> {
     }
 }
 
-/// Index of the frame nearest to `place`, in frames; `None` if it is further away than [`TOLERANCE`].
+/// Index of the frame nearest to `place`, a time in frame periods; `None` if it is further away than [`TOLERANCE`].
 fn frame_at(place: f64) -> Option<u64> {
     let nearest = place.round();
     let is_near = (place - nearest).abs() <= TOLERANCE && (0.0..9e15).contains(&nearest);

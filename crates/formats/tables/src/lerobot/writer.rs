@@ -14,7 +14,7 @@ use crate::cell::Cell;
 use crate::error::TableError;
 use crate::parquet::{ParquetWriter, WrittenColumn, WrittenKind, huggingface_features};
 
-/// Size of a data file from which the next episode starts a new file, MiB.
+/// Size of a data file at which the next episode begins a new file, MiB.
 const FILE_MB: u64 = 100;
 /// Maximum number of data files in one folder.
 pub(super) const FILES_A_CHUNK: u64 = 1000;
@@ -27,13 +27,13 @@ const OWN: [(&str, WrittenKind, &str); 5] = [
     ("task_index", WrittenKind::Integer, "int64"),
 ];
 
-/// Written episode.
+/// Position of a written episode in the dataset.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Episode {
     pub(super) task: usize,
     pub(super) first: u64,
     pub(super) end: u64,
-    /// Index of the data file of the episode over all chunks.
+    /// Index of the data file of the episode, counted over all chunks (folders).
     pub(super) file: u64,
 }
 
@@ -41,7 +41,7 @@ pub(super) struct Episode {
 #[derive(Debug)]
 struct DataFile {
     writer: ParquetWriter,
-    /// Index of the file over all chunks.
+    /// Index of the file, counted over all chunks (folders).
     number: u64,
 }
 
@@ -78,7 +78,7 @@ pub struct LeRobotWriter {
     episodes: Vec<Episode>,
     rows: u64,
     data: Option<DataFile>,
-    /// Created folders.
+    /// Folders that the writer created.
     folders: Vec<String>,
 }
 

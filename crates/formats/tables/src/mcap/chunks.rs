@@ -14,7 +14,7 @@ use crate::source::Source;
 /// Number of cached unpacked chunks. Two are needed because the times of neighbouring chunks may overlap, if several threads wrote the file.
 const KEPT: usize = 2;
 
-/// Reader of records by offset, with its own cursor in the file.
+/// Reader of the records and chunks at given offsets of an MCAP file, with its own cursor.
 pub(super) struct Chunks<'a> {
     source: &'a Source,
     file: File,
@@ -32,7 +32,7 @@ impl<'a> Chunks<'a> {
         })
     }
 
-    /// Code and length of the record at `at`.
+    /// Code and length of the record at the offset `at`.
     pub(super) fn head(&mut self, at: u64) -> Result<(u8, u64), TableError> {
         let head = self.source.bytes(&mut self.file, at, HEAD, HEAD)?;
         let mut bytes = Bytes::new(&head);
@@ -53,7 +53,7 @@ impl<'a> Chunks<'a> {
         }
     }
 
-    /// First `most` bytes of the fields of the record at `at`. The record must have the code `expected`.
+    /// First `most` bytes of the fields of the record at the offset `at`. The record must have the code `expected`.
     pub(super) fn fields(
         &mut self,
         at: u64,
@@ -73,7 +73,7 @@ impl<'a> Chunks<'a> {
         )
     }
 
-    /// Unpacked records of the chunk at `at`.
+    /// Unpacked records of the chunk at the offset `at`.
     pub(super) fn unpacked(&mut self, at: u64) -> Result<Arc<Vec<u8>>, TableError> {
         if let Some(found) = self.kept.iter().position(|(place, _)| *place == at) {
             let kept = self.kept.remove(found);

@@ -1,4 +1,4 @@
-//! Contents of a file, from its summary if complete, otherwise from all records.
+//! Contents of an MCAP file, from its summary if complete, otherwise from all records.
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -14,7 +14,7 @@ use crate::source::Source;
 /// Message for a record that is truncated.
 const CUT: &str = "a record is cut short";
 
-/// Schemas, channels and locations of messages.
+/// Schemas, channels and locations of messages in an MCAP file.
 #[derive(Debug, Default)]
 pub(super) struct Contents {
     pub(super) schemas: BTreeMap<u16, Schema>,
@@ -24,7 +24,7 @@ pub(super) struct Contents {
     pub(super) loose: BTreeMap<u16, Vec<u64>>,
     /// Number of messages of each channel.
     pub(super) counts: BTreeMap<u16, u64>,
-    /// Total size of the schemas and channels read, bytes.
+    /// Total size of the schemas and channels read so far, bytes.
     described: u64,
 }
 
@@ -54,7 +54,7 @@ pub(super) fn read(source: &Source) -> Result<Contents, TableError> {
     walk(source)
 }
 
-/// Checks the magic bytes at both ends of the file. Returns the offset of the footer.
+/// Checks the magic bytes at both ends of an MCAP file. Returns the offset of the footer.
 fn check_ends(source: &Source) -> Result<u64, TableError> {
     let mut file = source.open()?;
     let least = 2 * MAGIC.len() as u64 + FOOTER;

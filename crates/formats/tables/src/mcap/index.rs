@@ -1,4 +1,4 @@
-//! Index of the messages of a topic, by log time.
+//! Index of the messages of a topic in an MCAP file, sorted by log time.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +13,7 @@ use crate::source::Source;
 
 /// All messages of `channels`, sorted by time, then by position in the file.
 ///
-/// Reads all records if the indices of the file and the statistics state different numbers of messages.
+/// If the indices of the file and its statistics state different numbers of messages, all records are read instead.
 pub(super) fn index(
     source: &Source,
     contents: &Contents,
@@ -105,7 +105,7 @@ fn gather(
     Ok(entries)
 }
 
-/// Indexes the messages of the chunk at `chunk`, which has no index.
+/// Indexes the messages of the chunk at the offset `chunk`, whose message indices are missing.
 fn scan(
     source: &Source,
     chunks: &mut Chunks<'_>,

@@ -5,14 +5,14 @@ use std::collections::BTreeMap;
 use crate::bytes::Bytes;
 use crate::message::Schema;
 
-/// First and last eight bytes of a file.
+/// First and last eight bytes of an MCAP file.
 pub(crate) const MAGIC: [u8; 8] = *b"\x89MCAP0\r\n";
-/// Size of the code and the length of a record, bytes.
+/// Size of the head of a record, which is its code and its length, bytes.
 pub(super) const HEAD: u64 = 9;
-/// Size of a footer, bytes.
+/// Size of the footer record, bytes.
 pub(super) const FOOTER: u64 = HEAD + 20;
 
-/// Codes of the supported records.
+/// Type codes of the supported MCAP records.
 pub(super) mod code {
     pub(in crate::mcap) const FOOTER: u8 = 0x02;
     pub(in crate::mcap) const SCHEMA: u8 = 0x03;
@@ -25,7 +25,7 @@ pub(super) mod code {
     pub(in crate::mcap) const DATA_END: u8 = 0x0f;
 }
 
-/// Common properties of the messages that one writer sent on one topic.
+/// Channel of an MCAP file: the common properties of the messages that one writer sent on one topic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Channel {
     pub(super) schema: u16,
@@ -33,7 +33,7 @@ pub(super) struct Channel {
     pub(super) encoding: String,
 }
 
-/// Fields that precede the content of a message.
+/// Fields of an MCAP message record that precede the content.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct MessageHead {
     pub(super) channel: u16,
@@ -41,7 +41,7 @@ pub(super) struct MessageHead {
     pub(super) publish_time: u64,
 }
 
-/// Fields that precede the content of a chunk.
+/// Fields of an MCAP chunk record that precede the packed records.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct ChunkHead {
     pub(super) unpacked: u64,
@@ -59,7 +59,7 @@ pub(super) struct ChunkIndex {
 }
 
 impl ChunkIndex {
-    /// Offset of the end of the chunk; `None` on overflow.
+    /// Offset of the end of the chunk; `None` if it exceeds 64 bits.
     pub(super) fn end(&self) -> Option<u64> {
         self.at.checked_add(self.length)
     }
@@ -75,7 +75,7 @@ pub(super) struct Statistics {
     pub(super) of_channel: BTreeMap<u16, u64>,
 }
 
-/// Next record in `bytes`: its code and fields; `None` if the record is truncated.
+/// Takes the next record from `bytes`: its code and its fields. `None` if the record is truncated.
 pub(super) fn next<'a>(bytes: &mut Bytes<'a>) -> Option<(u8, &'a [u8])> {
     let code = bytes.u8()?;
     let length = usize::try_from(bytes.u64()?).ok()?;
@@ -112,7 +112,7 @@ pub(super) fn channel(fields: &[u8]) -> Option<(u16, Channel)> {
     ))
 }
 
-/// Head and content of a message.
+/// Parses the fields of a message record to its head and its content.
 pub(super) fn message(fields: &[u8]) -> Option<(MessageHead, &[u8])> {
     let mut bytes = Bytes::new(fields);
     let channel = bytes.u16()?;
@@ -125,7 +125,7 @@ pub(super) fn message(fields: &[u8]) -> Option<(MessageHead, &[u8])> {
     Some((head, bytes.rest()))
 }
 
-/// Head of a chunk, and size of the head in bytes.
+/// Parses the head of a chunk record. Also returns the size of the head in bytes.
 pub(super) fn chunk(fields: &[u8]) -> Option<(ChunkHead, usize)> {
     let mut bytes = Bytes::new(fields);
     let _times = (bytes.u64()?, bytes.u64()?);
@@ -163,7 +163,7 @@ pub(super) fn statistics(fields: &[u8]) -> Option<Statistics> {
     })
 }
 
-/// Message index of one channel in a chunk: the channel, and the time and offset of each message.
+/// Parses the message index of one channel in a chunk: the channel, and the time and offset of each message.
 pub(super) fn message_index(fields: &[u8]) -> Option<(u16, Vec<(u64, u64)>)> {
     let mut bytes = Bytes::new(fields);
     let channel = bytes.u16()?;
@@ -176,7 +176,7 @@ pub(super) fn message_index(fields: &[u8]) -> Option<(u16, Vec<(u64, u64)>)> {
     Some((channel, places))
 }
 
-/// Footer: offset and checksum of the summary, each 0 if missing.
+/// Parses the footer: the offset and the checksum of the summary, each 0 if missing.
 pub(super) fn footer(fields: &[u8]) -> Option<(u64, u32)> {
     let mut bytes = Bytes::new(fields);
     let summary = bytes.u64()?;

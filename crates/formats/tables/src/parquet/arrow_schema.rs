@@ -1,6 +1,6 @@
 //! Units of durations from the Arrow schema, because Parquet has no type for durations and stores integers.
 //!
-//! The text under `ARROW:schema` is the base64 of an Arrow IPC message. Its schema is a FlatBuffers table
+//! The metadata text under `ARROW:schema` is the base64 of an Arrow IPC message. Its schema is a FlatBuffers table
 //! (<https://arrow.apache.org/docs/format/Columnar.html#encapsulated-message-format>). Only names, types, children and units of durations are read. A
 //! schema that is inconsistent or has other columns is ignored.
 
@@ -11,14 +11,14 @@ use super::kind::ColumnKind;
 use super::schema::{LeafForm, Node, NodeKind};
 use crate::flatbuffer::Table;
 
-/// Type code of a duration.
+/// Type code of a duration in an Arrow schema.
 const DURATION: u8 = 18;
-/// Header type of a schema message.
+/// Header type of a schema message in Arrow IPC.
 const SCHEMA: u8 = 1;
-/// Maximum length of the schema text, bytes.
+/// Maximum length of the Arrow schema text, bytes.
 const LONGEST: usize = 1 << 20;
 
-/// Sets the unit of the `columns` that are durations according to `text`.
+/// Sets the unit of the `columns` that are durations according to the Arrow schema text `text`.
 pub(super) fn apply(text: &str, columns: &mut [Node]) {
     let Some(bytes) = (text.len() <= LONGEST)
         .then(|| BASE64_STANDARD.decode(text).ok())
@@ -38,7 +38,7 @@ pub(super) fn apply(text: &str, columns: &mut [Node]) {
     }
 }
 
-/// Sets the unit of a field and of its children. Columns and fields are trees of the same structure and order.
+/// Sets the unit of the column `node` and of its children from the Arrow field `field`. Both are trees of the same structure and order.
 fn name_units(field: Table<'_>, node: &mut Node) {
     let child = |position| field.tables(5)?.at(position);
     match &mut node.kind {
@@ -69,13 +69,13 @@ fn name_units(field: Table<'_>, node: &mut Node) {
     }
 }
 
-/// Unit of a duration field; the default of the Arrow format if none is stated.
+/// Unit of a duration field; the default of the Arrow format if the field states no unit.
 fn duration(field: Table<'_>) -> Option<&'static str> {
     let unit = field.table(3)?.short(0).unwrap_or(1);
     ["s", "ms", "us", "ns"].get(usize::from(unit)).copied()
 }
 
-/// Table in the message that follows its length. Newer writers precede the length with a marker.
+/// FlatBuffers table of an Arrow message. The length of the message precedes it, in newer files after a marker.
 fn message(bytes: &[u8]) -> Option<Table<'_>> {
     let begin = if bytes.get(..4)? == [0xff; 4] { 8 } else { 4 };
     Table::root(bytes.get(begin..)?)

@@ -1,4 +1,5 @@
-//! Assembly of rows from leaves. The levels of each entry mark the beginning, continuation, emptiness or absence of a list.
+//! Assembly of the rows of a Parquet column from its leaf columns. The levels of an entry mark the beginning, continuation, emptiness or absence of a
+//! list.
 
 use parquet::file::metadata::RowGroupMetaData;
 
@@ -8,7 +9,7 @@ use crate::cell::Cell;
 use crate::error::{Place, TableError};
 use crate::source::Source;
 
-/// Column in one row group: its tree, with a reader at each leaf.
+/// Column in one row group: the tree of its schema, with a reader at each leaf.
 pub(super) struct Assembly {
     root: Part,
 }
@@ -29,7 +30,7 @@ enum PartKind {
 }
 
 impl Assembly {
-    /// Assembly of the column `node` of `group`.
+    /// Creates the readers of the column `node` in the row group `group`.
     pub(super) fn new(
         source: &Source,
         group: &RowGroupMetaData,
@@ -40,7 +41,7 @@ impl Assembly {
         })
     }
 
-    /// Calls `each` with each of the next `rows` rows.
+    /// Calls `each` with the cell of each of the next `rows` rows.
     pub(super) fn read(
         &mut self,
         source: &Source,
@@ -109,7 +110,7 @@ impl Part {
         }
     }
 
-    /// Leaf whose levels apply to this part. All leaves below this part agree down to its level.
+    /// First leaf below this part. The levels of all leaves below a part are equal as far as they concern the part.
     fn first(&self) -> &Leaf {
         match &self.kind {
             PartKind::Leaf(leaf) => leaf,
@@ -120,7 +121,7 @@ impl Part {
         }
     }
 
-    /// Next row, or next element of the enclosing list.
+    /// Takes the cell of the next row, or of the next element of the enclosing list.
     fn row(&mut self) -> Result<Cell, TableError> {
         let next = self.first().peek();
         let definition = next.map_or(0, |(definition, _)| definition);

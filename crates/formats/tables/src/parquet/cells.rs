@@ -1,4 +1,4 @@
-//! Cells of bytes in one row group: streamed from plain pages, otherwise from decoded pages.
+//! Reader of the cells of bytes of a row group. Pages in the encoding `PLAIN` are streamed, and others are decoded as a whole.
 
 use parquet::file::metadata::RowGroupMetaData;
 
@@ -9,7 +9,7 @@ use crate::cell::Cell;
 use crate::error::TableError;
 use crate::source::Source;
 
-/// Cells of bytes in one row group, read in sequence.
+/// Reader of the cells of bytes of a row group, one after another.
 pub(super) enum Cells {
     Stream(Box<Stream>),
     Assembly(Assembly),

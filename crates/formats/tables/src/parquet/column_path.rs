@@ -1,4 +1,4 @@
-//! Selection of columns by name: a part of the schema and a part of a cell.
+//! Selection of columns by names such as `pose.x` or `ft[2]`, in the schema and within cells.
 
 use super::kind::ColumnKind;
 use super::schema::{LeafForm, Node, NodeKind};
@@ -15,7 +15,7 @@ pub(crate) struct Found {
 }
 
 impl Found {
-    /// Column at the start of `name`, restricted to the members of structures that `name` selects.
+    /// Finds the column that `name` begins with. Of its structures, only the members that `name` selects are kept.
     pub(crate) fn new(source: &Source, columns: &[Node], name: &str) -> Result<Found, TableError> {
         let top = longest(name, columns.iter().map(|node| node.name.as_str()));
         let found = top.and_then(|(at, rest)| Some((narrow(&columns[at], rest)?, rest)));
@@ -42,12 +42,12 @@ impl Found {
         &self.name
     }
 
-    /// Requested leaf, if its cells are plain bytes and the path has no list.
+    /// Index of the requested leaf, if it has no logical type and the path has no list.
     pub(crate) fn leaf_of_bytes(&self) -> Option<usize> {
         leaf_of_bytes(&self.column, &self.rest)
     }
 
-    /// Requested part of `cell`; null if a structure or a list on the path is null.
+    /// Requested part of `cell`; [`Cell::Null`] if a structure or a list on the path is null.
     pub(crate) fn inside(
         &self,
         source: &Source,
@@ -66,7 +66,7 @@ impl Found {
     }
 }
 
-/// Leaf at `rest` inside `node`, through structures only, if its cells are plain bytes.
+/// Index of the leaf at the path `rest` inside `node`, if the path has no list and the leaf no logical type.
 fn leaf_of_bytes(node: &Node, rest: &str) -> Option<usize> {
     match &node.kind {
         NodeKind::Leaf {
@@ -83,7 +83,7 @@ fn leaf_of_bytes(node: &Node, rest: &str) -> Option<usize> {
     }
 }
 
-/// Part of `node` at `rest`.
+/// Part of `node` at the path `rest`; `None` if it does not exist.
 fn inside<'n>(node: &'n Node, rest: &str) -> Option<&'n Node> {
     let mut node = node;
     let mut rest = rest;
@@ -110,7 +110,7 @@ fn inside<'n>(node: &'n Node, rest: &str) -> Option<&'n Node> {
     Some(node)
 }
 
-/// Copy of `node` with only the members that `rest` selects; `None` if `rest` selects none.
+/// Copy of `node` with only the members on the path `rest`; `None` if there are none.
 fn narrow(node: &Node, rest: &str) -> Option<Node> {
     if rest.is_empty() {
         return Some(node.clone());
@@ -154,7 +154,7 @@ fn narrow(node: &Node, rest: &str) -> Option<Node> {
     })
 }
 
-/// Names of all columns. A structure is listed by its members.
+/// Names of all columns. The list has the members of a structure, and not the structure.
 pub(crate) fn names(columns: &[Node]) -> Vec<String> {
     let mut names = Vec::new();
     for node in columns {

@@ -1,4 +1,4 @@
-//! Columns of a file to be written, and the conversion of their cells to values and levels.
+//! Columns of a Parquet file to be written, and the conversion of their cells to values and levels.
 
 use std::fmt;
 use std::io::Write;
@@ -112,7 +112,7 @@ fn list(name: &str, element: TypePtr) -> Result<Type, ParquetError> {
         .build()
 }
 
-/// Description of the columns for the library `datasets` of Hugging Face, under the key `huggingface`.
+/// Description of the columns for the library `datasets` of Hugging Face. The metadata of a file stores it under the key `huggingface`.
 ///
 /// ```
 /// use taceva_tables::{WrittenColumn, WrittenKind, huggingface_features};
@@ -182,7 +182,7 @@ impl fmt::Display for WrittenKind {
     }
 }
 
-/// Writes the next column of a row group, whose cells are of `kind`.
+/// Writes `cells` of the kind `kind` as the next column of a row group.
 pub(super) fn write_column<W: Write + Send>(
     group: &mut SerializedRowGroupWriter<'_, W>,
     kind: &WrittenKind,
@@ -214,7 +214,7 @@ pub(super) fn write_column<W: Write + Send>(
     }
 }
 
-/// Writes one value per row.
+/// Writes a column with one value per row.
 fn write_leaf<T: DataType, W: Write + Send>(
     group: &mut SerializedRowGroupWriter<'_, W>,
     cells: &[Cell],
@@ -225,8 +225,8 @@ fn write_leaf<T: DataType, W: Write + Send>(
     write::<T, W>(group, values, levels.collect(), None)
 }
 
-/// Writes one list per row. Definition level 0 means no list, 1 an empty list, 2 a null element, 3 a value. Repetition level 1 marks all elements except the
-/// first.
+/// Writes a column with one list per row. Definition level 0 means no list, 1 an empty list, 2 a null element, 3 a value. Repetition level 1 marks
+/// all elements except the first.
 fn write_lists<T: DataType, W: Write + Send>(
     group: &mut SerializedRowGroupWriter<'_, W>,
     cells: &[Cell],

@@ -1,4 +1,4 @@
-//! Leaf of a column: its values, and the levels that assign them to rows and lists.
+//! Leaf of a Parquet column: its values, and the levels that assign them to rows and lists.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -15,7 +15,7 @@ use crate::error::{Place, TableError};
 use crate::scalar::{decimal, half, nanoseconds_in};
 use crate::source::Source;
 
-/// Leaf in one row group, read in batches of rows.
+/// Reader of a leaf of a column in one row group, in batches of rows.
 pub(super) struct Leaf {
     source: Source,
     name: String,
@@ -27,7 +27,7 @@ pub(super) struct Leaf {
     values: Values,
     definitions: Vec<i16>,
     repetitions: Vec<i16>,
-    /// Indices of the next level and of the next non-null value.
+    /// Index of the next level. `next_value` is the index of the next non-null value.
     at: usize,
     next_value: usize,
 }
@@ -44,7 +44,7 @@ enum Values {
 }
 
 impl Leaf {
-    /// Leaf at index `column` of `group`.
+    /// Creates the reader of the leaf with the index `column` in the row group `group`.
     pub(super) fn new(
         source: &Source,
         group: &RowGroupMetaData,
@@ -91,7 +91,7 @@ impl Leaf {
         })
     }
 
-    /// Reads the next `rows` rows. All entries of earlier rows must have been taken.
+    /// Reads the next `rows` rows. The caller has taken all entries of earlier rows.
     pub(super) fn read(&mut self, rows: usize) -> Result<(), TableError> {
         self.handed.store(0, Ordering::Relaxed);
         (self.at, self.next_value) = (0, 0);
@@ -164,7 +164,7 @@ impl Leaf {
         }
     }
 
-    /// Definition and repetition level of the next entry; `None` at the end of the rows read.
+    /// Definition and repetition level of the next entry; `None` after the last entry that was read.
     pub(super) fn peek(&self) -> Option<(i16, i16)> {
         let definition = *self.definitions.get(self.at)?;
         let repetition = match self.has_repetition {
@@ -174,7 +174,7 @@ impl Leaf {
         Some((definition, repetition))
     }
 
-    /// Takes the next entry, which is null if its definition level is below the maximum.
+    /// Takes the next entry as a cell. The cell is null if the definition level of the entry is below the maximum of the leaf.
     pub(super) fn take(&mut self) -> Result<Cell, TableError> {
         let Some((definition, _)) = self.peek() else {
             return Err(self.damaged("it has fewer entries than the other columns"));
@@ -251,7 +251,7 @@ impl Leaf {
         })
     }
 
-    /// Converts an error of the decoder, or unwraps an error of this crate.
+    /// Converts an error of the `parquet` crate. Unwraps an error of this crate that it passed on.
     fn outer(&self, error: ParquetError) -> TableError {
         match error {
             ParquetError::External(inner) => match inner.downcast::<TableError>() {

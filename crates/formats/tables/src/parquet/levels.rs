@@ -1,6 +1,6 @@
 //! Decoder of levels in the hybrid encoding of Parquet: runs of one value, and bit-packed values.
 
-/// Iterator over levels.
+/// Iterator over the definition or repetition levels of a Parquet page.
 #[derive(Debug)]
 pub(super) struct Levels {
     bytes: Vec<u8>,
@@ -11,14 +11,14 @@ pub(super) struct Levels {
 
 #[derive(Clone, Copy, Debug)]
 enum Run {
-    /// Run of one value, and number of repetitions left.
+    /// Run of `value`, with the number of its remaining repetitions.
     Same { left: u64, value: u32 },
-    /// Number of packed values left, and the bit offset of the next value.
+    /// Bit-packed values: the number of remaining values, and the bit offset of the next value.
     Packed { left: u64, bit: u64 },
 }
 
 impl Levels {
-    /// Levels from 0 to `highest` in `bytes`.
+    /// Creates the decoder of `bytes`, whose levels are from 0 to `highest`.
     pub(super) fn new(bytes: Vec<u8>, highest: i16) -> Levels {
         Levels {
             bytes,

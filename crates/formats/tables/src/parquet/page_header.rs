@@ -1,4 +1,4 @@
-//! Header of a page: a structure in the compact protocol of Thrift. Only the fields that the reader needs are kept.
+//! Header of a Parquet page: a structure in the compact protocol of Thrift. Only the fields that the reader needs are kept.
 //!
 //! Field and type numbers are from `parquet.thrift`, version 2.12. Statistics, which may contain two whole pictures, are skipped.
 
@@ -10,17 +10,17 @@ use crate::limits;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct PageHeader {
     pub(super) kind: PageKind,
-    /// Size of the page in the file, bytes.
+    /// Size of the page in the file, without its header, bytes.
     pub(super) packed: u32,
     pub(super) unpacked: u32,
-    /// CRC-32 of the bytes in the file.
+    /// CRC-32 of the page as stored in the file; `None` if the file states none.
     pub(super) crc: Option<u32>,
     pub(super) values: u32,
     pub(super) encoding: i32,
-    /// Version 1: encodings of the levels.
+    /// Encoding of the definition levels, for data pages of version 1. `repetition_encoding` is that of the repetition levels.
     pub(super) definition_encoding: i32,
     pub(super) repetition_encoding: i32,
-    /// Version 2: number of nulls. The levels are uncompressed, with known sizes.
+    /// Number of nulls, for data pages of version 2. Their levels are uncompressed, with known sizes.
     pub(super) nulls: u32,
     pub(super) rows: u32,
     pub(super) definition_bytes: u32,
@@ -37,7 +37,7 @@ pub(super) enum PageKind {
     DataV2,
 }
 
-/// Reads a header. Returns the header and its size in bytes, or an error message.
+/// Reads a page header. Returns the header and its size in bytes, or an error message.
 pub(super) fn read_header(from: &mut impl BufRead) -> Result<(PageHeader, u64), String> {
     let mut thrift = Thrift { from, read: 0 };
     let mut header = PageHeader {
@@ -101,7 +101,7 @@ pub(super) fn read_header(from: &mut impl BufRead) -> Result<(PageHeader, u64), 
     Ok((header, thrift.read))
 }
 
-/// Wire type of a field.
+/// Wire type of a field in the compact protocol of Thrift.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Form {
     True,
@@ -117,7 +117,7 @@ enum Form {
     Struct,
 }
 
-/// Number of the last field of a structure. The number of the next field is relative to the last number.
+/// Number of the last field that was read from a structure. The file states the number of the next field relative to it.
 #[derive(Default)]
 struct Fields {
     last: i32,
@@ -130,7 +130,7 @@ struct Thrift<'a, R> {
 }
 
 impl<R: BufRead> Thrift<'_, R> {
-    /// Next field of a structure; `None` at the end of the structure.
+    /// Reads the number and wire type of the next field of a structure; `None` at its end.
     fn field(&mut self, fields: &mut Fields) -> Result<Option<(i32, Form)>, String> {
         let byte = self.byte()?;
         if byte == 0 {
@@ -194,7 +194,7 @@ impl<R: BufRead> Thrift<'_, R> {
         }
     }
 
-    /// Skips elements of a list. Each element takes at least one byte, including truth values. The end of the file therefore ends the loop.
+    /// Skips `count` elements of a list. Each takes at least one byte, even a truth value, so that a false count fails at the end of the file.
     fn skip_elements(&mut self, form: Form, count: u64, depth: usize) -> Result<(), String> {
         for _ in 0..count {
             match form {
@@ -219,7 +219,7 @@ impl<R: BufRead> Thrift<'_, R> {
             .map_err(|_| format!("a page header states {number}, expected a number of 32 bits"))
     }
 
-    /// Zigzag number, with its sign in the lowest bit.
+    /// Reads a zigzag integer, which has its sign in the lowest bit.
     fn int(&mut self) -> Result<i64, String> {
         let bits = self.varint()?;
         Ok((bits >> 1).cast_signed() ^ -((bits & 1).cast_signed()))

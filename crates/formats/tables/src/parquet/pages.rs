@@ -1,4 +1,4 @@
-//! Pages of a column chunk. This module checks and unpacks them, and the `parquet` crate decodes them.
+//! Pages of a Parquet column chunk. This module checks and unpacks the pages, and the `parquet` crate decodes them.
 //!
 //! The page reader of this crate unpacks without C code, verifies checksums, and compares sizes with the file before it allocates.
 
@@ -20,12 +20,12 @@ use crate::error::{Place, TableError};
 use crate::limits;
 use crate::source::Source;
 
-/// Pages of one chunk, in the order of the file.
+/// Pages of one column chunk, in the order of the file.
 pub(super) struct Pages {
     source: Source,
     name: String,
     file: BufReader<File>,
-    /// Offsets of the next header, and of the end of the chunk.
+    /// Offset of the next page header. `end` is the offset of the end of the chunk.
     at: u64,
     end: u64,
     codec: Codec,
@@ -34,13 +34,13 @@ pub(super) struct Pages {
     has_lists: bool,
     /// Header that was read ahead, and the offset of its page.
     peeked: Option<(PageHeader, u64)>,
-    /// Number of values of all pages returned since the shared counter was reset.
+    /// Number of values of all returned pages. The reader of the values shares this counter and resets it.
     handed: Arc<AtomicU64>,
     is_dictionary_read: bool,
 }
 
 impl Pages {
-    /// Pages of `chunk` of the column `name`.
+    /// Creates the reader of the pages of `chunk`, a chunk of the column `name`.
     pub(super) fn new(
         source: &Source,
         name: &str,
@@ -107,7 +107,7 @@ impl Pages {
         })
     }
 
-    /// Next header, and the offset of its page. The cursor of the file stays at this offset.
+    /// Reads the next page header ahead. Also returns the offset of its page, at which the cursor of the file stays.
     fn header(&mut self) -> Result<Option<&(PageHeader, u64)>, TableError> {
         if self.peeked.is_some() || self.at >= self.end {
             return Ok(self.peeked.as_ref());
@@ -141,7 +141,7 @@ impl Pages {
         }
     }
 
-    /// Next header of any kind, and the offset of its page. Skips the page.
+    /// Returns the next header of a page of any type, and the offset of the page. Skips the page.
     pub(super) fn next_header(&mut self) -> Result<Option<(PageHeader, u64)>, TableError> {
         let found = self.header()?.cloned();
         self.pass();
@@ -226,7 +226,7 @@ impl Pages {
             .map_err(|problem| self.damaged(begin, problem))
     }
 
-    /// Unpacks a page. In version 2, uncompressed levels precede the packed bytes.
+    /// Unpacks a page. In a data page of version 2, uncompressed levels precede the packed bytes.
     fn unpacked(&self, header: &PageHeader, packed: Vec<u8>) -> Result<Vec<u8>, String> {
         let size = header.unpacked as usize;
         if header.kind != PageKind::DataV2 {
@@ -256,7 +256,7 @@ impl Pages {
         Ok(whole)
     }
 
-    /// Unpacks bytes. Blocks of the older LZ4 codec have Hadoop frames; some writers omit the frames.
+    /// Unpacks `packed` to `size` bytes. Blocks of the older LZ4 codec have Hadoop frames, which some writers omit.
     fn unpack(&self, codec: Codec, packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
         match (codec, unpack(codec, packed, size)) {
             (Codec::Lz4Hadoop, Err(problem)) => unpack(Codec::Lz4Frame, packed, size)
@@ -266,7 +266,7 @@ impl Pages {
         }
     }
 
-    /// Builds a page after a check that the stated counts fit its bytes.
+    /// Builds a page from the unpacked `bytes`, after a check that the counts in the header fit them.
     fn checked(&mut self, header: &PageHeader, bytes: Vec<u8>) -> Result<Page, String> {
         let encoding = encoding(header.encoding)?;
         let buf = Bytes::from(bytes);

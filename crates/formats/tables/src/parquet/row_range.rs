@@ -1,4 +1,4 @@
-//! Cells of a row range of a column. Other rows are not kept in memory.
+//! Reader of the cells of a row range of a column. Other rows are not kept in memory.
 
 use std::ops::Range;
 
@@ -67,7 +67,7 @@ impl ParquetTable {
     }
 }
 
-/// Converts a number of rows that fits `usize`.
+/// Converts a number of rows to `usize`. The number is known to fit.
 fn small(rows: u64) -> usize {
     usize::try_from(rows).unwrap_or(usize::MAX)
 }

@@ -10,7 +10,7 @@ use crate::limits;
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
     pub(crate) name: String,
-    /// Definition level from which this part is not null.
+    /// Minimum definition level at which this part is not null.
     pub(crate) definition: i16,
     pub(crate) kind: NodeKind,
 }
@@ -24,17 +24,17 @@ pub(crate) enum NodeKind {
     },
     Struct(Vec<Node>),
     List {
-        /// Definition level from which an element exists, and repetition level of all elements except the first.
+        /// Minimum definition level at which an element exists. `repetition` is the repetition level of all elements except the first.
         definition: i16,
         repetition: i16,
         element: Box<Node>,
     },
 }
 
-/// Logical type of a leaf.
+/// Logical type of a leaf of a Parquet schema.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LeafForm {
-    /// Equal to the physical type.
+    /// No logical type: the cell has the physical type.
     Plain,
     Text,
     Unsigned,
@@ -47,7 +47,7 @@ pub(crate) enum LeafForm {
     Time(&'static str),
 }
 
-/// Top-level columns of a schema. The error names the unsupported part.
+/// Top-level columns of a Parquet schema. The error names the unsupported part.
 pub(crate) fn columns(schema: &SchemaDescriptor) -> Result<Vec<Node>, String> {
     let mut leaves = 0;
     let nodes = schema
@@ -108,7 +108,7 @@ fn node(field: &Type, above: Levels, leaves: &mut usize, depth: usize) -> Result
     content(field, levels, leaves, depth)
 }
 
-/// Levels of a field below an optional or repeated field with the levels `above`.
+/// Levels inside a field that lies at the levels `above`. A repeated field is one level deeper in both.
 fn deeper(above: Levels, is_repeated: bool) -> Result<Levels, String> {
     let step = i16::from(is_repeated);
     let more = |level: i16| {
@@ -122,7 +122,7 @@ fn deeper(above: Levels, is_repeated: bool) -> Result<Levels, String> {
     })
 }
 
-/// Content of a field. `levels` includes the repetition of the field itself.
+/// Builds the node of a field from its content. `levels` includes the repetition of the field itself.
 fn content(field: &Type, levels: Levels, leaves: &mut usize, depth: usize) -> Result<Node, String> {
     let name = field.name().to_owned();
     let definition = levels.definition;
@@ -171,7 +171,7 @@ fn content(field: &Type, levels: Levels, leaves: &mut usize, depth: usize) -> Re
     }
 }
 
-/// Element of a list. `repeated` is its repeated group.
+/// Builds the node of the elements of a list. `repeated` is the repeated group of the list.
 ///
 /// The element is the only field of the group. The group itself is the element if it has several fields, or a name that older writers give to
 /// elements.

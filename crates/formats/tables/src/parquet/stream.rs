@@ -1,4 +1,4 @@
-//! Reader of cells of bytes, one at a time, from plain pages.
+//! Reader of cells of bytes, one at a time, from Parquet pages in the encoding `PLAIN`.
 //!
 //! Some writers put a thousand pictures into one page. Cells of plain pages are therefore read directly from the file or from a streaming decoder. The whole
 //! page is not in memory. Only blocks of snappy and LZ4 are unpacked as a whole.
@@ -18,11 +18,11 @@ use crate::error::{Place, TableError};
 use crate::limits;
 use crate::source::Source;
 
-/// Supported encodings, by their number in the format.
+/// Number of the encoding of plain values in the Parquet format. `RLE` is that of levels.
 const PLAIN: i32 = 0;
 const RLE: i32 = 3;
 
-/// Column chunk of bytes outside lists, whose data pages are all plain.
+/// Reader of a column chunk of bytes outside lists. All its data pages have the encoding `PLAIN`.
 pub(super) struct Stream {
     source: Source,
     name: String,
@@ -36,19 +36,19 @@ struct Open {
     at: u64,
     body: Body,
     levels: Option<Levels>,
-    /// Number of entries left in the page.
+    /// Number of entries of the page that are not read yet, including nulls.
     entries: u64,
     bytes: u64,
 }
 
 enum Body {
-    /// Values directly in the file, so that cells can be skipped by seeking.
+    /// Uncompressed values in the file. Cells are skipped by seeking.
     File(BufReader<File>),
     Unpacked(Box<dyn Read>),
 }
 
 impl Stream {
-    /// Cells of `chunk`; `None` if the cells are not byte strings outside lists, or a page is not plain.
+    /// Creates the reader of the cells of `chunk`; `None` if they are not byte strings outside lists, or if a page is not `PLAIN`.
     pub(super) fn new(
         source: &Source,
         chunk: &ColumnChunkMetaData,
@@ -104,7 +104,7 @@ impl Stream {
         Ok(())
     }
 
-    /// Cell of the next row; `None` if the cell is null.
+    /// Reads the cell of the next row; `None` if the cell is null.
     pub(super) fn next(&mut self) -> Result<Option<Vec<u8>>, TableError> {
         while self.page.as_ref().is_none_or(|page| page.entries == 0) {
             let (header, begin) = self.next_data()?;
@@ -146,7 +146,7 @@ impl Stream {
         })
     }
 
-    /// Opens the page at the cursor of `file`. In version 2, the levels are not packed. In version 1, packed levels follow their length.
+    /// Opens the page at the cursor of `file`. Version 2 of a data page has unpacked levels first. Version 1 has packed levels after their length.
     fn opened(
         &self,
         header: &PageHeader,
@@ -207,7 +207,7 @@ fn body(codec: Codec, file: BufReader<File>, packed: u32, unpacked: u32) -> Resu
 }
 
 impl Open {
-    /// Next cell; `None` if it is null.
+    /// Reads the next cell; `None` if it is null.
     fn take(&mut self, highest: i16) -> Result<Option<Vec<u8>>, String> {
         match self.is_null(highest)? {
             true => Ok(None),
@@ -218,7 +218,7 @@ impl Open {
         }
     }
 
-    /// Reads to the end after the last cell, because some codecs store a checksum there.
+    /// Reads the page to its end after the last cell, because some codecs store a checksum there.
     fn finish(&mut self) -> Result<(), String> {
         match &mut self.body {
             Body::Unpacked(reader) if self.bytes == 0 => reader
@@ -277,7 +277,7 @@ impl Open {
         }
     }
 
-    /// Subtracts `length` from the number of bytes left. Fails if fewer are left.
+    /// Subtracts `length` from the remaining bytes of the page. Fails if fewer bytes remain.
     fn announce(&mut self, length: u32) -> Result<(), String> {
         let left = self.bytes.checked_sub(length.into());
         self.bytes = left.ok_or_else(|| {

@@ -1,9 +1,9 @@
-//! Encodings of values of a column, and checks of the number of values against the bytes.
+//! Encodings of the values of a Parquet column, and checks that a stated number of values fits into the bytes of a page.
 
 use parquet::basic::{Encoding, Type as Physical};
 use parquet::schema::types::ColumnDescriptor;
 
-/// Minimum size of a plain value, bits.
+/// Minimum size of a value in the encoding `PLAIN`, bits.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ValueSize(u64);
 
@@ -20,7 +20,7 @@ impl ValueSize {
         })
     }
 
-    /// Checks that a dictionary of `values` values fits its bytes, because memory is allocated for the stated number.
+    /// Checks that a dictionary of `values` values fits into its `bytes` bytes, because memory is allocated for the stated number.
     pub(super) fn check_dictionary(self, values: u32, bytes: usize) -> Result<(), String> {
         match self.0 {
             1 => Err("the dictionary has booleans".to_owned()),
@@ -28,7 +28,7 @@ impl ValueSize {
         }
     }
 
-    /// Checks that `values` values fit `bytes` bytes.
+    /// Checks that `values` values in the encoding `PLAIN` fit into `bytes` bytes.
     pub(super) fn check_plain(self, values: u32, bytes: usize) -> Result<(), String> {
         let bits = u64::from(values).checked_mul(self.0);
         match bits.is_some_and(|bits| bits <= (bytes as u64).saturating_mul(8)) {
@@ -56,7 +56,7 @@ pub(super) fn encoding(code: i32) -> Result<Encoding, String> {
     })
 }
 
-/// Encoding of levels with this code. Any code is accepted if there are no levels, because writers then state any code.
+/// Encoding of levels with the number `code`. If a page has no levels, writers state any number, so all are accepted.
 pub(super) fn level_encoding(code: i32, are_there: bool) -> Result<Encoding, String> {
     match (code, are_there) {
         (3 | 4, _) => encoding(code),

@@ -18,10 +18,11 @@ use crate::error::TableError;
 
 /// Maximum number of rows of a row group. To read one row, a reader must read its whole group.
 const GROUP_ROWS: usize = 1000;
-/// Memory of cells at which a row group ends early, bytes.
+/// Memory size of the cells of a row group at which the group ends before `GROUP_ROWS` rows, bytes.
 const GROUP_BYTES: u64 = 16 << 20;
 
-/// Writer of a Parquet file. Keeps one row group in memory and compresses it with snappy when it is full. Equal rows give equal bytes.
+/// Writer of a Parquet file. Keeps one row group in memory and compresses it with snappy when it is full. Files of the same rows are equal byte for
+/// byte.
 ///
 /// ```
 /// use taceva_tables::{Cell, ParquetTable, ParquetWriter, WrittenColumn, WrittenKind};
@@ -46,13 +47,13 @@ pub struct ParquetWriter {
     path: PathBuf,
     columns: Vec<WrittenColumn>,
     writer: SerializedFileWriter<File>,
-    /// Cells of the rows that are not yet in a group, by column.
+    /// Cells of the rows that are not yet in a written row group, by column.
     held: Vec<Vec<Cell>>,
     held_bytes: u64,
 }
 
 impl ParquetWriter {
-    /// Creates the file at `path`. `metadata` contains texts by key.
+    /// Creates the file at `path`. `metadata` contains pairs of a key and a text.
     ///
     /// # Errors
     /// [`TableError::Write`] if the file exists already or cannot be created. [`TableError::Mismatch`] if two columns have the same name.

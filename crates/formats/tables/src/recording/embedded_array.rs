@@ -6,12 +6,12 @@ use serde_json::{Map, Value};
 
 use crate::cell::Cell;
 
-/// Names of the member that contains the bytes.
+/// Accepted names of the object member that contains the bytes of an array.
 const BYTES: [&str; 3] = ["data_b64", "data_base64", "b64"];
-/// Maximum number of elements of an array that is converted to numbers. Larger arrays remain texts.
+/// Maximum number of elements of an array that is converted to numbers. The bytes of a larger array remain base64 text.
 const MOST_NUMBERS: u64 = 1 << 16;
 
-/// Numbers of an array object as nested lists of its shape; `None` for another object.
+/// Numbers of an array in a JSON object, as nested lists of its shape; `None` for another object.
 ///
 /// # Errors
 /// Error message if the bytes do not match the stated type and shape.
@@ -78,7 +78,7 @@ fn shape(members: &Map<String, Value>) -> Option<Vec<u64>> {
 /// Converter of bytes to a number.
 type NumberReader = fn(&[u8]) -> Cell;
 
-/// Width in bytes and converter of a number type; `None` for an unsupported type.
+/// Width in bytes of the number type `kind`, and its converter; `None` for an unsupported type.
 fn reader(kind: &str) -> Option<(usize, NumberReader)> {
     fn bytes<const N: usize>(bytes: &[u8]) -> [u8; N] {
         bytes.try_into().unwrap_or([0; N])

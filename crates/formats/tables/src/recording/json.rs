@@ -1,4 +1,4 @@
-//! JSON messages.
+//! Reader of JSON messages.
 
 use serde_json::Value;
 
@@ -6,7 +6,7 @@ use super::embedded_array;
 use crate::cell::Cell;
 use crate::limits;
 
-/// Parses a message to a cell, or returns an error message. `serde_json` limits the depth to 128 levels.
+/// Parses a JSON message to a cell, or returns an error message. `serde_json` limits the nesting to 128 levels.
 pub(super) fn cell(message: &[u8]) -> Result<Cell, String> {
     if message.len() as u64 > limits::JSON_BYTES {
         return Err(format!("{} bytes of JSON", message.len()));
@@ -42,7 +42,7 @@ fn of_value(value: Value) -> Result<Cell, String> {
     })
 }
 
-/// Collects the names of members that state the shape of an array but contain no numbers.
+/// Adds to `into` the names of the members of `cell` that state the shape of an array but contain no numbers. `above` precedes each name.
 pub(super) fn add_absent_arrays(cell: &Cell, above: &str, into: &mut Vec<String>) {
     let Cell::Struct(members) = cell else { return };
     for (name, member) in members {
@@ -54,7 +54,7 @@ pub(super) fn add_absent_arrays(cell: &Cell, above: &str, into: &mut Vec<String>
     }
 }
 
-/// Collects the names of the members of a cell that are not objects.
+/// Adds to `into` the names of the members of `cell` that are not objects. `above` precedes each name.
 pub(super) fn add_names(cell: &Cell, above: &str, into: &mut Vec<String>) {
     let Cell::Struct(members) = cell else { return };
     for (name, member) in members {

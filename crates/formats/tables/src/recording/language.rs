@@ -1,4 +1,4 @@
-//! Encodings of messages, and readers for them.
+//! Encodings of the messages of a recording, and readers for them.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -25,14 +25,14 @@ pub(super) enum Language {
     Protobuf(&'static ProtobufMessage),
 }
 
-/// Reader of the requested fields of a message.
+/// Function that reads the requested fields of a message.
 pub(super) type Reader<'a> = Box<dyn Fn(&[u8]) -> Result<Vec<Cell>, String> + 'a>;
 
-/// Reader of the picture of a message.
+/// Function that reads the picture in a message.
 pub(super) type PictureReader<'a> = Box<dyn Fn(&[u8]) -> Result<Picture, String> + 'a>;
 
 impl Language {
-    /// Reader of the fields `names`. The error is the first unknown name.
+    /// Reader of the fields `names` of a message. The error is the first unknown name.
     pub(super) fn reader<'a>(&'a self, names: &[&'a str]) -> Result<Reader<'a>, &'a str> {
         match self {
             Language::Ros(schema) => {
@@ -74,7 +74,7 @@ impl Language {
     }
 }
 
-/// Content of a ROS message, unpacked if the recorder compressed each message.
+/// Content of a ROS message. A message that the recorder compressed with Zstandard is unpacked.
 fn unpacked(message: &[u8]) -> Result<Cow<'_, [u8]>, String> {
     match message.starts_with(&ZSTANDARD) {
         false => Ok(Cow::Borrowed(message)),
@@ -82,7 +82,7 @@ fn unpacked(message: &[u8]) -> Result<Cow<'_, [u8]>, String> {
     }
 }
 
-/// Encoding of the messages of `topic`. All messages must have the same encoding and schema.
+/// Encoding of the messages of `topic`. Fails if the messages have several encodings or schemas.
 pub(super) fn of_topic(store: &dyn MessageStore, topic: &Topic) -> Result<Language, String> {
     let channels = store.channels().values();
     let channels = channels.filter(|channel| channel.topic == topic.name);
@@ -142,7 +142,7 @@ pub(super) fn names(language: &Language) -> Result<Vec<String>, String> {
     }
 }
 
-/// Channels of `topic`, by number.
+/// Numbers of the channels of `topic`.
 pub(super) fn channels(store: &dyn MessageStore, topic: &Topic) -> BTreeSet<u32> {
     let channels = store.channels().iter();
     let channels = channels.filter(|(_, channel)| channel.topic == topic.name);

@@ -80,7 +80,8 @@ impl TopicTable {
         self.entries.len() as u64
     }
 
-    /// Columns: the times, then the fields in the order of the schema. A list has one name. For JSON, the first message determines the fields.
+    /// Names of the columns: the times, then the fields in the order of the schema. A list is one column. For JSON, the first message determines the
+    /// fields.
     ///
     /// # Errors
     /// [`TableError::Unsupported`] if the schema has too many fields. For JSON, errors of [`columns`](Self::columns).
@@ -261,7 +262,7 @@ impl TopicTable {
     }
 }
 
-/// Function that returns the value of a time column of a message.
+/// Function that returns the value of a time column for a message.
 type OfHead = fn(&Message) -> Cell;
 
 /// Time columns of every topic.

@@ -1,4 +1,4 @@
-//! Decoder of CDR, the encoding of ROS 2. Numbers are aligned to their own size, counted from the end of the first four bytes.
+//! Decoder of CDR, the encoding of ROS 2. The offset of a number after the first four bytes is a multiple of the size of the number.
 //!
 //! ROS 1 messages are packed without alignment from the first byte on.
 
@@ -6,7 +6,7 @@ use super::schema::{Count, Dialect, Field, Kind, Message, RosSchema};
 use crate::cell::Cell;
 use crate::limits;
 
-/// Request for a part of a message or a field.
+/// Request for parts of a message or a field, which are stored in numbered slots.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Want {
     /// Skips the field.
@@ -15,7 +15,7 @@ pub(crate) enum Want {
     Whole(usize),
     /// Stores the bytes of a list of `uint8` in the slot with this number.
     Bytes(usize),
-    /// Requests for the fields of a message.
+    /// One request for each field of a message.
     Fields(Vec<Want>),
 }
 
@@ -31,7 +31,7 @@ pub(crate) struct Cdr<'a> {
 }
 
 impl<'a> Cdr<'a> {
-    /// Reader of the body of `message`. In ROS 2, the body follows four bytes that state the encoding.
+    /// Creates the reader of `message`. A ROS 2 message begins with four bytes that state its encoding.
     pub(crate) fn new(message: &'a [u8], dialect: Dialect) -> Result<Cdr<'a>, String> {
         if dialect == Dialect::Ros1 {
             return Ok(Cdr {
@@ -72,7 +72,7 @@ impl<'a> Cdr<'a> {
         })
     }
 
-    /// Reads the message. Fills `slots` according to `want`.
+    /// Reads the message once. Stores the parts that `want` requests in `slots`.
     pub(crate) fn read(
         &mut self,
         schema: &RosSchema,
@@ -141,7 +141,7 @@ impl<'a> Cdr<'a> {
         }
     }
 
-    /// Skips a field.
+    /// Skips the next field of the message.
     fn pass(&mut self, schema: &RosSchema, field: &Field) -> Result<(), String> {
         let count = self.count(field)?;
         if let Some(size) = field.kind.size() {
@@ -161,7 +161,7 @@ impl<'a> Cdr<'a> {
         Ok(())
     }
 
-    /// Field as a cell; a list if the field is an array.
+    /// Reads the next field to a cell, which is a list if the field is an array.
     fn cell(&mut self, schema: &RosSchema, field: &Field) -> Result<Cell, String> {
         if field.count == Count::One {
             return self.one(schema, field.kind);
@@ -213,7 +213,7 @@ impl<'a> Cdr<'a> {
         })
     }
 
-    /// Number of elements of a field. Each element takes at least one byte, so a number above the remaining bytes is rejected.
+    /// Number of elements of the next field. An element takes at least one byte, so a number that exceeds the number of remaining bytes is rejected.
     fn count(&mut self, field: &Field) -> Result<usize, String> {
         let count = match field.count {
             Count::One => 1,
@@ -233,7 +233,7 @@ impl<'a> Cdr<'a> {
         }
     }
 
-    /// Bytes of a text, which follow the length of the text.
+    /// Reads the length of a text, then its bytes.
     fn text_bytes(&mut self) -> Result<&'a [u8], String> {
         let length = u32::from_le_bytes(self.number()?) as usize;
         self.take(length)
@@ -246,7 +246,7 @@ impl<'a> Cdr<'a> {
         std::str::from_utf8(text).map_err(|_| "a string is not UTF-8".to_owned())
     }
 
-    /// Next number as little-endian bytes.
+    /// Reads the next number of `N` bytes, and returns its bytes in little-endian order.
     fn number<const N: usize>(&mut self) -> Result<[u8; N], String> {
         self.align(N);
         let bytes = self.take(N)?;

@@ -1,6 +1,6 @@
 //! Definitions of standard ROS 2 messages, for recordings that contain no definitions.
 
-/// Messages by `package/Name`, in the language of `.msg` files.
+/// Names (`package/Name`) of standard messages, and their definitions in the syntax of `.msg` files.
 pub(super) const KNOWN: [(&str, &str); 43] = [
     ("builtin_interfaces/Time", "int32 sec\nuint32 nanosec"),
     ("builtin_interfaces/Duration", "int32 sec\nuint32 nanosec"),

@@ -1,4 +1,4 @@
-//! Fields of messages by dotted name, and their columns.
+//! Fields of ROS messages by dotted name, and the columns that are read from them.
 
 use super::cdr::{Cdr, Want};
 use super::schema::{Count, Field, Kind, Message, RosSchema};
@@ -14,7 +14,7 @@ pub(crate) struct Fields {
     picks: Vec<Pick>,
 }
 
-/// Column: its slot, the path within the slot, and the form of a time.
+/// Column: the slot with its field, the path within the field, and whether a time is in seconds or nanoseconds.
 #[derive(Clone, Debug)]
 struct Pick {
     slot: usize,
@@ -30,7 +30,7 @@ enum Form {
 }
 
 impl Fields {
-    /// Columns called `names`. The error is the first name that the schema lacks.
+    /// Finds the fields of the columns `names`. The error is the first name that the schema lacks.
     pub(crate) fn new<'n>(schema: &RosSchema, names: &[&'n str]) -> Result<Fields, &'n str> {
         let mut fields = Fields {
             want: Want::Nothing,
@@ -48,7 +48,7 @@ impl Fields {
         Ok(fields)
     }
 
-    /// Cells of one message, one for each column, or an error message.
+    /// Reads the cells of one message, one for each column. Fails with an error message.
     pub(crate) fn read(&self, schema: &RosSchema, message: &[u8]) -> Result<Vec<Cell>, String> {
         let mut slots = vec![Cell::Null; self.slots];
         Cdr::new(message, schema.dialect())?.read(schema, &self.want, &mut slots)?;
@@ -97,17 +97,17 @@ impl Fields {
     }
 }
 
-/// Index of a field in each message on the path to it, with the rest of the name.
+/// Path to a field: for each nested message, the index of the next field, and the part of the name after it.
 type Steps<'n> = Vec<(usize, &'n str)>;
 
-/// Path to a field, and the form of the field.
+/// Path to a field, and whether its cell is a time in seconds, a time in nanoseconds, or neither.
 struct Way<'n> {
     steps: Steps<'n>,
     form: Form,
 }
 
 impl<'n> Way<'n> {
-    /// Path to the field `name`. A time is a single number, and its member `ns` is another number.
+    /// Path to the field `name`; `None` if it does not exist. A time is one number in seconds, and its member `ns` is one in nanoseconds.
     fn to(schema: &RosSchema, name: &'n str) -> Option<Way<'n>> {
         if let Some((steps, end)) = steps(schema, name) {
             let form = match end.is_some_and(is_time) {
@@ -124,7 +124,7 @@ impl<'n> Way<'n> {
     }
 }
 
-/// Steps to the field `name`, and its message type if the field is a single message.
+/// Path to the field `name`, and the message type of the field if it is a single message.
 fn steps<'s, 'n>(schema: &'s RosSchema, name: &'n str) -> Option<(Steps<'n>, Option<&'s Message>)> {
     let mut message = schema.root();
     let mut steps = Vec::new();
@@ -165,7 +165,7 @@ fn is_time(message: &Message) -> bool {
         && matches!(message.fields.as_slice(), [sec, nanosec] if sec.name == "sec" && nanosec.name == "nanosec")
 }
 
-/// Names of all fields. Members of messages have dotted names. A list and a time have one name each.
+/// Names of all fields. Members of messages have dotted names. A list has one name, and a time has one name.
 pub(crate) fn names(schema: &RosSchema) -> Result<Vec<String>, String> {
     let mut names = Vec::new();
     add_names(schema, schema.root(), "", &mut names)?;
@@ -220,7 +220,7 @@ mod tests {
     const JOINTS: &str = "std_msgs/Header header\nstring[] name\nfloat64[] position\nPair[2] pairs\n\
         ===\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n===\nMSG: a/Pair\nuint8 low\nint16 high";
 
-    /// Message with numbers in the requested byte order.
+    /// Test message with numbers in the requested byte order.
     fn message(is_big_endian: bool) -> Vec<u8> {
         let mut bytes = vec![0, u8::from(!is_big_endian), 0, 0];
         let mut put = |number: &[u8]| {

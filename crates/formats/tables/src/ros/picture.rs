@@ -45,9 +45,9 @@ pub struct Samples {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SampleForm {
-    /// One byte of brightness per pixel.
+    /// Brightness as one byte per pixel.
     Mono8,
-    /// Two bytes of brightness per pixel.
+    /// Brightness as one number of two bytes per pixel.
     Mono16,
     /// One byte each of red, green and blue per pixel.
     Rgb8,
@@ -73,7 +73,7 @@ pub(crate) struct PictureField {
     is_raw: bool,
 }
 
-/// Slots of the fields that describe a picture.
+/// Slot of the bytes of a picture. The next constants are the slots of the other fields that describe the picture.
 const DATA: usize = 0;
 const FORMAT: usize = 1;
 const HEIGHT: usize = 2;
@@ -84,7 +84,7 @@ const STEP: usize = 6;
 const SLOTS: usize = 7;
 
 impl PictureField {
-    /// Field `name`, a list of `uint8`. Returns an error message for another type.
+    /// Finds the field `name`, which must be a list of `uint8`. Returns an error message for another type.
     pub(crate) fn new(schema: &RosSchema, name: &str) -> Result<PictureField, String> {
         let mut message = schema.root();
         let mut places = Vec::new();
@@ -140,7 +140,7 @@ impl PictureField {
         Ok(PictureField { want, is_raw })
     }
 
-    /// Picture in `message`, or an error message.
+    /// Reads the picture in `message`. Fails with an error message.
     pub(crate) fn read(&self, schema: &RosSchema, message: &[u8]) -> Result<Picture, String> {
         let mut slots = vec![Cell::Null; SLOTS];
         Cdr::new(message, schema.dialect())?.read(schema, &self.want, &mut slots)?;
@@ -180,7 +180,7 @@ fn raw(slots: &[Cell], data: Vec<u8>) -> Result<RawPicture, String> {
     })
 }
 
-/// Unchecked picture, as its message describes it.
+/// Uncompressed picture as its message describes it, before any check.
 #[derive(Clone, Debug)]
 pub(crate) struct RawPicture {
     pub(crate) width: u32,
@@ -193,7 +193,7 @@ pub(crate) struct RawPicture {
 }
 
 impl RawPicture {
-    /// Picture without padding, with little-endian numbers. Returns an error message for an unsupported format.
+    /// Checks the picture, removes padding, and makes samples little-endian. Returns an error message for an unsupported format.
     pub(crate) fn samples(self) -> Result<Samples, String> {
         let RawPicture {
             width,

@@ -1,5 +1,5 @@
-//! Message definitions in the language of `.msg` files, as ROS 2 writes them into recordings. The message itself comes first, then the messages that it uses,
-//! each after a line of `=` and a line `MSG: package/Name`.
+//! Message definitions in the language of `.msg` files, as ROS 2 writes them into recordings. The definition of the message comes first. Each message
+//! that it uses follows after a line of `=` and a line `MSG: package/Name`.
 
 use std::collections::BTreeMap;
 
@@ -10,13 +10,13 @@ use crate::limits;
 /// ROS 1 or ROS 2. The schemas are alike; the encoding of numbers and some types differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Dialect {
-    /// Packed little-endian numbers.
+    /// ROS 1: little-endian numbers without alignment.
     Ros1,
-    /// CDR.
+    /// ROS 2: numbers in CDR, which are aligned.
     Ros2,
 }
 
-/// Messages of a schema. The first message is the root.
+/// Message definitions of a schema. The first is that of the recorded messages.
 #[derive(Clone, Debug)]
 pub(crate) struct RosSchema {
     messages: Vec<Message>,
@@ -83,7 +83,7 @@ struct Written {
     count: Count,
 }
 
-/// Time types that are keywords in ROS 1, with their names in ROS 2.
+/// Time types that are built into ROS 1, with the names of the equal messages in ROS 2.
 const OF_ROS_1: [(&str, &str); 2] = [
     ("builtin_interfaces/Time", "uint32 sec\nuint32 nanosec"),
     ("builtin_interfaces/Duration", "int32 sec\nint32 nanosec"),
@@ -161,7 +161,7 @@ impl RosSchema {
         Ok(schema)
     }
 
-    /// Dialect of the messages.
+    /// Dialect of the messages: ROS 1 or ROS 2.
     pub(crate) fn dialect(&self) -> Dialect {
         self.dialect
     }
@@ -174,7 +174,7 @@ impl RosSchema {
         &self.messages[place]
     }
 
-    /// Checks that messages below `place` nest within the limit. A message that contains itself would nest without end.
+    /// Checks the nesting depth of messages inside the message `place` against the limit. A message that contains itself would nest without end.
     fn check_depth(
         &self,
         place: usize,
@@ -302,7 +302,7 @@ fn kind(
     })
 }
 
-/// `package/Name` of `package/msg/Name`.
+/// Shortens `package/msg/Name` to `package/Name`.
 pub(super) fn short(name: &str) -> String {
     let mut parts = name.split('/');
     match (parts.next(), parts.next_back()) {

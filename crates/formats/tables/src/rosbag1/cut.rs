@@ -14,7 +14,7 @@ use crate::source::Source;
 pub(super) struct Walk {
     pub(super) channels: BTreeMap<u32, Channel>,
     entries: BTreeMap<u32, Vec<Entry>>,
-    /// True if the location of each message is stored, and not only the number of messages.
+    /// True if the location of each message is stored; false if messages are only counted.
     is_located: bool,
     messages: u64,
     /// Offset of the end of the complete records.
@@ -36,7 +36,7 @@ pub(super) fn refusal(source: &Source, place: Place, problem: String) -> TableEr
 }
 
 impl Walk {
-    /// Reads messages in complete chunks, in a truncated uncompressed chunk, and after the head of a chunk whose length was never written.
+    /// Reads the messages of all complete chunks. Also reads an uncompressed last chunk that is truncated, or whose length was never written.
     pub(super) fn of(source: &Source, is_located: bool) -> Result<Walk, TableError> {
         let mut records = Records::new(source)?;
         let mut walk = Walk {
@@ -69,7 +69,7 @@ impl Walk {
         Ok(walk)
     }
 
-    /// Adds the complete messages among records: the records of the chunk at `chunk`, or a single record of the file.
+    /// Adds the complete messages of `records`, which are the records of the chunk at the offset `chunk`, or one record outside chunks.
     fn add(
         &mut self,
         source: &Source,
@@ -117,7 +117,7 @@ impl Walk {
         }
     }
 
-    /// Messages of `channels`, sorted by time.
+    /// Locations of the messages of `channels`, sorted by time.
     pub(super) fn entries(&self, channels: &BTreeSet<u32>) -> Vec<Entry> {
         let own = self.entries.iter();
         let own = own.filter(|(number, _)| channels.contains(number));
@@ -129,7 +129,7 @@ impl Walk {
     }
 }
 
-/// Bytes of the truncated chunk at `at`; `None` if it is compressed.
+/// Bytes of the truncated chunk at the offset `at`; `None` if the chunk is compressed.
 pub(super) fn cut_chunk(records: &mut Records<'_>, at: u64) -> Option<Vec<u8>> {
     let length = records.source.length();
     let four = |records: &mut Records<'_>, at: u64| {

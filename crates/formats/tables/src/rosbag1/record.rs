@@ -1,4 +1,4 @@
-//! Records of a bag: a head of named fields, then data.
+//! Records of a ROS 1 bag: a head of named fields, then data.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use crate::message::{Channel, Schema};
 /// Number of nanoseconds per second.
 pub(super) const NANO: u64 = 1_000_000_000;
 
-/// Codes of records.
+/// Type codes of the records of a ROS 1 bag.
 pub(super) mod op {
     pub(in crate::rosbag1) const MESSAGE: u8 = 0x02;
     pub(in crate::rosbag1) const BAG: u8 = 0x03;
@@ -23,14 +23,15 @@ pub(super) mod op {
 #[derive(Debug)]
 pub(super) struct Head {
     fields: Vec<u8>,
-    /// Offset of the data.
+    /// Offset of the data of the record in the file.
     pub(super) data_at: u64,
-    /// End of the record.
+    /// Offset of the end of the record in the file.
     pub(super) end: u64,
 }
 
 impl Head {
-    /// Parses the head from `fields`. Each field is its length, its name, `=` and its value. `None` if the fields do not end at the end of `fields`.
+    /// Parses the head from `fields`. Each field has its length, its name, `=` and its value. `None` if the last field does not end at the end of
+    /// `fields`.
     pub(super) fn new(fields: Vec<u8>, data_at: u64, end: u64) -> Option<Head> {
         let mut bytes = Bytes::new(&fields);
         while !bytes.rest().is_empty() {
@@ -65,12 +66,12 @@ impl Head {
         String::from_utf8(self.bytes(name)?.to_vec()).ok()
     }
 
-    /// Code of the record.
+    /// Type code of the record.
     pub(super) fn op(&self) -> Option<u8> {
         self.number::<1>("op").map(|[code]| code)
     }
 
-    /// Time of a message, ns since 1970.
+    /// Time of the message in this record, ns since 1970.
     pub(super) fn time_ns(&self) -> Option<u64> {
         let [a, b, c, d, rest @ ..] = self.number::<8>("time")?;
         let seconds = u64::from(u32::from_le_bytes([a, b, c, d]));
@@ -78,7 +79,7 @@ impl Head {
     }
 }
 
-/// Name and value of the next field.
+/// Takes the name and the value of the next field from `bytes`.
 fn next<'b>(bytes: &mut Bytes<'b>) -> Option<(&'b [u8], &'b [u8])> {
     let length = usize::try_from(bytes.u32()?).ok()?;
     let field = bytes.take(length)?;
@@ -86,7 +87,7 @@ fn next<'b>(bytes: &mut Bytes<'b>) -> Option<(&'b [u8], &'b [u8])> {
     Some((&field[..end], &field[end + 1..]))
 }
 
-/// Head of the record at `at` of an unpacked chunk, and the range of its data.
+/// Head of the record at the offset `at` of the unpacked chunk `held`, and the range of its data.
 pub(super) fn within(held: &[u8], at: usize) -> Option<(Head, Range<usize>)> {
     let mut bytes = Bytes::new(held.get(at..)?);
     let length = usize::try_from(bytes.u32()?).ok()?;
@@ -97,7 +98,7 @@ pub(super) fn within(held: &[u8], at: usize) -> Option<(Head, Range<usize>)> {
     Some((Head::new(fields, 0, 0)?, begin..begin + data))
 }
 
-/// Number of a connection, and its channel.
+/// Parses a connection record to the number of the connection and its channel.
 pub(super) fn connection(head: &Head, data: &[u8]) -> Option<(u32, Channel)> {
     let number = head.number::<4>("conn").map(u32::from_le_bytes)?;
     let said = Head::new(data.to_vec(), 0, 0)?;

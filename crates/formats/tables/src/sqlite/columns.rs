@@ -1,14 +1,14 @@
-//! Columns of a table, from its SQL text.
+//! Columns of an SQLite table, parsed from its SQL text.
 
 /// Columns of a table.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Columns {
     pub(super) names: Vec<String>,
-    /// Position of the column that is an alias of the row number.
+    /// Position of the column that stands for the row number; `None` if no column does.
     pub(super) id: Option<usize>,
 }
 
-/// Columns in `CREATE TABLE name (…)`; `None` for a table that is stored differently, or for other SQL.
+/// Parses the columns of `CREATE TABLE name (…)`; `None` for other SQL, and for tables such as `WITHOUT ROWID`.
 pub(super) fn columns(sql: &str) -> Option<Columns> {
     let (_, behind) = sql.split_once('(')?;
     let (inside, after) = behind.rsplit_once(')')?;
@@ -44,7 +44,7 @@ pub(super) fn columns(sql: &str) -> Option<Columns> {
     (!names.is_empty()).then_some(Columns { names, id })
 }
 
-/// Parts between commas outside brackets and quotes.
+/// Splits SQL text at the commas outside brackets and quotes.
 fn parts(text: &str) -> Vec<&str> {
     let mut parts = Vec::new();
     let mut depth = 0_usize;
@@ -69,7 +69,7 @@ fn parts(text: &str) -> Vec<&str> {
     parts
 }
 
-/// First word of a part without its quotes, and the rest.
+/// First word of `part` without quotes, and the text after the word.
 fn first_word(part: &str) -> (String, &str) {
     let closing = match part.chars().next() {
         Some(quote @ ('"' | '`' | '\'')) => Some(quote),

@@ -1,4 +1,4 @@
-//! Reader of the pages of a database, with its own cursor.
+//! Reader of the pages of an SQLite database, with its own cursor.
 
 use std::fs::File;
 use std::sync::Arc;
@@ -6,12 +6,12 @@ use std::sync::Arc;
 use super::{Database, RowPlace};
 use crate::error::{Place, TableError};
 
-/// Pages of a database; the last page is cached. A reader reads each row once, or several times in succession.
+/// Reader of the pages of a database, which caches the last page. Each row is read once, or several times in succession.
 pub(crate) struct Pages<'a> {
     pub(super) database: &'a Database,
     file: File,
     kept: Option<(u32, Arc<Vec<u8>>)>,
-    /// Location of the last counted row.
+    /// Location of the row that [`count`](Self::count) counted last.
     row: Option<RowPlace>,
     /// Total size of all counted rows, bytes.
     row_bytes: u64,
@@ -28,7 +28,7 @@ impl<'a> Pages<'a> {
         })
     }
 
-    /// Page with this number, from 1.
+    /// Reads the page with the number `number`, counted from 1.
     pub(super) fn page(&mut self, number: u32) -> Result<Arc<Vec<u8>>, TableError> {
         if let Some((kept, page)) = &self.kept
             && *kept == number
@@ -40,7 +40,7 @@ impl<'a> Pages<'a> {
         Ok(page)
     }
 
-    /// Page with this number, read again and not cached.
+    /// Reads the page with the number `number`, counted from 1, from the file, and does not cache it.
     pub(super) fn read(&mut self, number: u32) -> Result<Vec<u8>, TableError> {
         let database = self.database;
         if number == 0 || number > database.pages {
@@ -52,7 +52,7 @@ impl<'a> Pages<'a> {
         database.source.bytes(&mut self.file, at, bytes, bytes)
     }
 
-    /// Counts the row at `place`.
+    /// Adds the `bytes` bytes of the row at `place` to the total size of the rows.
     ///
     /// # Errors
     /// [`TableError::Damaged`] if the rows together are longer than the file. Rows that share bytes could otherwise cost hours.
@@ -79,12 +79,12 @@ impl<'a> Pages<'a> {
         }
     }
 
-    /// Subtracts `bytes` of a counted row that are missing in a truncated file.
+    /// Subtracts `bytes` from the total size of the rows, because a truncated file lacks these bytes of a row.
     pub(super) fn uncount(&mut self, bytes: u64) {
         self.row_bytes = self.row_bytes.saturating_sub(bytes);
     }
 
-    /// True for a page that the header states but that is missing in a truncated file.
+    /// True if page `number` is missing because the file was truncated.
     pub(super) fn is_beyond_cut(&self, number: u32) -> bool {
         number > self.database.pages && number <= self.database.announced
     }

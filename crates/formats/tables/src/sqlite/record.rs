@@ -1,4 +1,4 @@
-//! Rows: a row number, then a head with the types, then the values. A row that exceeds its page continues in overflow pages.
+//! Rows of an SQLite table: a row number, then a head with the types, then the values. A row that exceeds its page continues in overflow pages.
 
 use std::collections::HashSet;
 use std::ops::Range;
@@ -9,7 +9,7 @@ use super::{RowPlace, SqliteTable};
 use crate::error::TableError;
 use crate::limits;
 
-/// Value of a row.
+/// Value of one column in a row.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Value {
     Null,
@@ -20,7 +20,7 @@ pub(crate) enum Value {
     Blob(Range<usize>),
 }
 
-/// Row. Overflow pages are read only if a requested value reaches into them.
+/// Row of a table. Overflow pages are read only if they contain a requested value.
 pub(crate) struct Record<'p, 'd> {
     pages: &'p mut Pages<'d>,
     page: u32,
@@ -32,12 +32,12 @@ pub(crate) struct Record<'p, 'd> {
     read: Vec<u8>,
     /// Size of the whole row, bytes.
     length: usize,
-    /// Number of the next overflow page.
+    /// Number of the overflow page that is read next.
     next: u32,
 }
 
 impl<'p, 'd> Record<'p, 'd> {
-    /// Opens the row at `place`. Reads only the bytes in the page of the row.
+    /// Opens the row at `place`. Reads only the part of the row in its own page, and no overflow page.
     pub(crate) fn read(
         pages: &'p mut Pages<'d>,
         table: &SqliteTable,
@@ -96,12 +96,12 @@ impl<'p, 'd> Record<'p, 'd> {
         self.length as u64
     }
 
-    /// Bytes of the row read so far, which extend at least to the last requested value.
+    /// Bytes of the row read so far. They contain all requested values.
     pub(crate) fn into_bytes(self) -> Vec<u8> {
         self.read
     }
 
-    /// True if the row has no part on a missing page of a truncated file.
+    /// True if the row is complete, and false if a part of it is on a missing page of a truncated file.
     pub(crate) fn is_before_cut(&mut self) -> Result<bool, TableError> {
         match self.read_to(self.length) {
             Ok(()) => Ok(true),
@@ -196,7 +196,7 @@ impl<'p, 'd> Record<'p, 'd> {
         Ok(())
     }
 
-    /// Reads the rest of the row unless its first `end` bytes are already read.
+    /// Reads overflow pages until the first `end` bytes of the row are read.
     fn read_to(&mut self, end: usize) -> Result<(), TableError> {
         if self.read.len() >= end {
             return Ok(());
@@ -222,7 +222,7 @@ impl<'p, 'd> Record<'p, 'd> {
     }
 }
 
-/// Number of bytes that a row of `length` bytes has in its own page. `usable` is the usable size of a page.
+/// Number of bytes of a row of `length` bytes that are in its own page and not in overflow pages. `usable` is the usable size of a page.
 fn in_page(length: usize, usable: usize) -> usize {
     let most = usable - 35;
     if length <= most {
@@ -233,7 +233,7 @@ fn in_page(length: usize, usable: usize) -> usize {
     if even <= most { even } else { least }
 }
 
-/// Varint of one to nine bytes, the highest first, and the remaining bytes.
+/// Parses a varint of one to nine bytes, the most significant byte first. Also returns the bytes after it.
 fn varint(bytes: &[u8]) -> Option<(u64, &[u8])> {
     let mut number = 0_u64;
     for at in 0..8 {

@@ -1,4 +1,4 @@
-//! B-trees of tables. Interior pages refer to other pages. Leaf pages contain rows in the order of their numbers.
+//! B-trees of the tables of an SQLite database. Interior pages refer to other pages. Leaf pages contain rows in the order of their numbers.
 
 use std::collections::HashSet;
 
@@ -7,24 +7,24 @@ use super::record::Record;
 use super::{RowPlace, SqliteTable};
 use crate::error::TableError;
 
-/// Types of pages of a table.
+/// Type of an interior page of a table. `LEAF` is the type of a leaf page.
 const INNER: u8 = 5;
 const LEAF: u8 = 13;
-/// Maximum depth of a tree, sufficient for all pages with two children each.
+/// Maximum depth of a tree. Even a tree of all pages, in which each interior page has two children, is less deep.
 const DEPTH: usize = 40;
 
 /// Head of a page of a table.
 pub(super) struct Head {
     kind: u8,
     cells: u16,
-    /// Last child of an interior page.
+    /// Page number of the last child of an interior page.
     last: u32,
-    /// Offset of the list of cells.
+    /// Offset of the list of cell offsets in the page.
     places: usize,
 }
 
 impl Head {
-    /// Parses the head of the page `page` with this number.
+    /// Parses the head of `page`, whose page number is `number`.
     pub(super) fn of(number: u32, page: &[u8]) -> Option<Head> {
         // The header of the file precedes the first page.
         let at = if number == 1 { 100 } else { 0 };
@@ -38,7 +38,7 @@ impl Head {
         })
     }
 
-    /// Bytes of the page from the start of this cell.
+    /// Bytes of `page` from the start of the cell with the index `cell` to the end of the page.
     pub(super) fn cell<'p>(&self, page: &'p [u8], cell: u16) -> Option<&'p [u8]> {
         if cell >= self.cells {
             return None;
@@ -54,7 +54,7 @@ impl Head {
     }
 }
 
-/// Calls `each` with every row of `table`. For a truncated file, only with rows on the existing pages.
+/// Calls `each` with every row of `table`. Of a truncated file, only rows on existing pages are visited.
 pub(super) fn walk(
     pages: &mut Pages<'_>,
     table: &SqliteTable,

@@ -15,15 +15,15 @@ thread_local! {
 pub(crate) struct Endings {
     pub(crate) read: usize,
     pub(crate) refused: usize,
-    /// Panics of decoders from other crates.
+    /// Number of copies for which a decoder of another crate panicked.
     pub(crate) panicked: usize,
 }
 
-/// Reads six truncated copies of the file at `path` and forty copies with flipped bits. `read` reads a copy in a copy of the folder
-/// `root`.
+/// Reads six truncated copies of the file at `path` and forty copies with flipped bits. `read` gets the path of each damaged copy, which is in a copy
+/// of the folder `root`.
 ///
 /// # Panics
-/// Panics if the code of this crate panics, or a copy takes longer than ten seconds.
+/// Panics if the code of this crate panics, or a copy takes longer than sixty seconds.
 pub(crate) fn damage<T, E: std::fmt::Display>(
     root: &Path,
     path: &Path,
@@ -65,7 +65,7 @@ pub(crate) fn damage<T, E: std::fmt::Display>(
     }
 }
 
-/// Result of `read`. After a panic, the error is the source file of the panic.
+/// Result of `read`, or the source file in which it panicked, as an error.
 pub(crate) fn attempt<T>(read: impl FnOnce() -> T) -> Result<T, String> {
     listen();
     PANICKED_AT.with_borrow_mut(|at| *at = Some(String::new()));

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 use sha2::{Digest, Sha256};
 
-/// Folder of a recording: in this crate, or else among the shared recordings.
+/// Folder of the recording `name`: in this crate, or else among the shared recordings.
 pub(crate) fn recording(name: &str) -> PathBuf {
     let crate_folder = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
     let own = crate_folder.join("tests/data").join(name);
@@ -45,7 +45,7 @@ pub(crate) fn picture_digest(png: &[u8]) -> String {
     digest(&picture.into_rgb8())
 }
 
-/// Row as an index of a list.
+/// Row number as an index of a list.
 pub(crate) fn at(row: u64) -> usize {
     usize::try_from(row).expect("a row of a small file")
 }

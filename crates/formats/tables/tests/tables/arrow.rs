@@ -1,4 +1,4 @@
-//! Tests of tables in Arrow files: every type and nesting as pyarrow reads it back, and rejected files.
+//! Tests of tables in Arrow files: every type and nesting must equal what pyarrow reads back. Also tests of rejected files.
 
 use std::fs;
 use std::path::PathBuf;
@@ -40,7 +40,7 @@ fn every_type_and_nesting_of_a_stream_and_of_a_file_is_read_as_pyarrow_reads_it(
     }
 }
 
-/// Cell of a row of `make.py`. Every fifth row is null.
+/// Cell of the row `row`, as `make.py` writes it: null in every fifth row, otherwise `cell`.
 fn some(row: u16, cell: Cell) -> Cell {
     match row % 5 {
         2 => Cell::Null,

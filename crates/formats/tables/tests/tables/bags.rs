@@ -1,4 +1,4 @@
-//! Tests of rosbag2 databases and ROS 1 bags: every message as given to the program that wrote it (`tests/data/bags/make.py`).
+//! Tests of rosbag2 databases and ROS 1 bags: every message must equal the message that `tests/data/bags/make.py` wrote.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -34,7 +34,7 @@ fn numbers(column: &[Cell]) -> Vec<f64> {
     column.iter().map(number).collect()
 }
 
-/// Reads all of `file` up to the first error.
+/// Reads all messages of the recording at `path`, up to the first error.
 fn read_all(path: &Path) -> Result<usize, TableError> {
     let recording = Recording::open(path)?;
     let mut cells = 0;

@@ -1,4 +1,4 @@
-//! Tests of truncated recordings. They are rejected with the number of readable messages, and these messages are read on request.
+//! Tests of truncated recordings. Opening one gives an error with the number of readable messages. `open_to_cut` reads these messages.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -12,7 +12,7 @@ fn data(name: &str) -> PathBuf {
         .join(name)
 }
 
-/// Messages of a topic as text, each with the cells of the columns called `names`.
+/// Messages of a topic as texts. Each text has the cells of the columns `names`.
 fn rows(recording: &Recording, topic: &str, names: &[&str]) -> Vec<String> {
     let table = recording.table(topic).expect("a topic");
     let columns = table.columns(names).expect("reads");
@@ -31,7 +31,7 @@ fn names(recording: &Recording, topic: &str) -> Vec<String> {
     table.names().expect("names")
 }
 
-/// Number of readable messages that the error states.
+/// Number of readable messages that the error states when the recording at `path` is opened.
 #[track_caller]
 fn refused(path: &Path) -> u64 {
     match Recording::open(path) {

@@ -4,7 +4,7 @@ use crate::recordings::{at, expected, recording};
 use serde_json::Value;
 use taceva_tables::{Cell, ColumnKind, ParquetTable, TableError};
 
-/// Cell in the form that `make.py` writes.
+/// Converts a cell to the JSON that `make.py` writes for it.
 pub(crate) fn plain(cell: &Cell) -> Value {
     match cell {
         Cell::Null => Value::Null,

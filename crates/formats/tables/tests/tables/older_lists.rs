@@ -1,10 +1,10 @@
-//! Tests of lists of older writers: without their own group, without a name for their kind, or with the name from Hive.
+//! Tests of Parquet lists that older writers wrote: without a group of their own, without a list annotation, or with the names of Hive.
 
 use crate::recordings::parquet_file::parquet_file;
 use parquet::column::writer::ColumnWriter;
 use taceva_tables::ParquetTable;
 
-/// Column of integers: its schema, the levels of its entries, and the texts of its rows.
+/// Column of integers: its schema, the definition and the repetition levels of its entries, and the texts of its rows.
 type Written<'a> = (&'a str, &'a [i16], &'a [i16], &'a [&'a str]);
 
 #[test]

@@ -6,7 +6,7 @@ use taceva_tables::{Cell, ParquetTable, TableError};
 const THREE: [u64; 3] = [0, 7, 23];
 const CHANNELS: [&str; 6] = ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"];
 
-/// Codecs of the files.
+/// Compressions of the test files.
 const CODECS: [&str; 5] = ["zstd", "gzip", "brotli", "lz4", "none"];
 
 #[test]

@@ -1,4 +1,4 @@
-//! Tests of time columns that pyarrow writes, of every type and unit. Seconds match the file exactly, digit by digit.
+//! Tests of time columns that pyarrow writes, of every type and unit. The text of each time in seconds must equal the expected text.
 
 use crate::recordings::{expected, recording};
 use taceva_tables::{Cell, ColumnKind, ParquetTable};

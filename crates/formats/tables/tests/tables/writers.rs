@@ -7,7 +7,7 @@ use taceva_tables::{
     WrittenColumn, WrittenFeature, WrittenKind,
 };
 
-/// Row of each kind of column. A cell is null if `number` is a multiple of its divisor.
+/// Row with a cell of each kind of column. A cell is null if `number` is a multiple of a divisor that differs by column.
 fn row(number: i16) -> Vec<Cell> {
     let unless = |every: i16, cell: Cell| match number % every {
         0 => Cell::Null,

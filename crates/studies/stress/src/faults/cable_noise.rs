@@ -1,4 +1,4 @@
-//! A bad cable or connector.
+//! Fault of pictures: a bad cable or connector, which displaces lines or fills them with one level.
 
 use taceva_core::random::scaled;
 
@@ -16,11 +16,11 @@ pub(super) static FAULT: Fault = Fault {
     effect: Effect::Numbers(apply),
 };
 
-/// Share of bad lines that are displaced; all pixels of the other bad lines have one level.
+/// Fraction of the bad lines that are displaced. In another bad line, all pixels have the same value.
 const DISPLACED: f32 = 0.7;
-/// Greatest displacement, in pixels.
+/// Greatest displacement of a line, in pixels.
 const MOST: u64 = 8;
-/// Number of random numbers for each line.
+/// Number of random numbers that each line of a picture uses.
 const DRAWS: u64 = 4;
 
 fn apply(canvas: &mut Canvas, drawn: &Realisation) {

@@ -1,4 +1,4 @@
-//! A camera that moved in its mount.
+//! Fault of pictures: the camera has moved in its mount.
 
 use crate::canvas::{Canvas, Realisation, index};
 use crate::fault::{Effect, Fault, Scope};
@@ -24,7 +24,7 @@ fn apply(canvas: &mut Canvas, drawn: &Realisation) {
     displace(&mut canvas.values, row, by / 2.0);
 }
 
-/// Displaces cells of `length` values each by the number of cells `by`, and repeats the first cell at the beginning.
+/// Moves groups of `length` values by `by` groups towards the end, with linear interpolation. The first group is repeated at the beginning.
 fn displace(values: &mut [f32], length: usize, by: f32) {
     let whole = index(by);
     let part = by - by.floor();

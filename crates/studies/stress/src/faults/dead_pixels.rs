@@ -1,4 +1,4 @@
-//! Pixels of the camera that no longer measure.
+//! Fault of pictures: pixels of the camera that no longer respond to light.
 
 use crate::canvas::{Canvas, Realisation};
 use crate::fault::{Effect, Fault, Scope};

@@ -1,4 +1,4 @@
-//! A lens out of focus.
+//! Fault of pictures: a lens out of focus.
 
 use taceva_core::single;
 use taceva_metrics::elementary::exponential;
@@ -24,7 +24,7 @@ fn apply(canvas: &mut Canvas, drawn: &Realisation) {
     along_columns(canvas, &kernel);
 }
 
-/// Weights of a Gaussian with this standard deviation in pixels, to three deviations on either side.
+/// Weights of a Gaussian with the standard deviation `deviation`, in pixels, up to three deviations on either side.
 fn kernel(deviation: f32) -> Vec<f32> {
     let reach = index(3.0 * deviation + 1.0);
     let weight = |tap: usize| {
@@ -37,7 +37,7 @@ fn kernel(deviation: f32) -> Vec<f32> {
     weights.collect()
 }
 
-/// Convolves each row; outside the picture its edge continues.
+/// Convolves each row with `kernel`. Outside the picture, the pixels at its edge are repeated.
 fn along_rows(canvas: &mut Canvas, kernel: &[f32]) {
     let (colours, reach) = (canvas.colours(), kernel.len() / 2);
     let mut wide = Vec::new();
@@ -54,7 +54,7 @@ fn along_rows(canvas: &mut Canvas, kernel: &[f32]) {
     }
 }
 
-/// Convolves each column; outside the picture its edge continues.
+/// Convolves each column with `kernel`. Outside the picture, the pixels at its edge are repeated.
 fn along_columns(canvas: &mut Canvas, kernel: &[f32]) {
     let (length, reach) = (canvas.width() * canvas.colours(), kernel.len() / 2);
     let last = canvas.height() - 1;
@@ -68,7 +68,7 @@ fn along_columns(canvas: &mut Canvas, kernel: &[f32]) {
     }
 }
 
-/// Adds `source` times `weight`.
+/// Adds `source` times `weight` to `row`.
 fn add(row: &mut [f32], source: &[f32], weight: f32) {
     for (place, value) in row.iter_mut().zip(source) {
         *place += weight * value;

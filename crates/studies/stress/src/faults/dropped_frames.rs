@@ -1,4 +1,4 @@
-//! Rows that a recorder loses.
+//! Fault of times: rows (samples) that a recorder loses.
 
 use crate::fault::{Effect, Fault, Scope};
 

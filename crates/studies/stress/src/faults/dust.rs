@@ -1,4 +1,4 @@
-//! Dust and bubbles between camera and gel.
+//! Fault of pictures: dust and bubbles between camera and gel.
 
 use taceva_core::single;
 use taceva_metrics::elementary::exponential;
@@ -17,9 +17,9 @@ pub(super) static FAULT: Fault = Fault {
     effect: Effect::Numbers(apply),
 };
 
-/// Share of the light that is lost in the middle of a spot.
+/// Fraction of the light that the middle of a spot of dust blocks.
 const LOST: f32 = 0.6;
-/// Radius of a drawn spot, in standard deviations.
+/// Radius to which a spot of dust is drawn, in standard deviations of its Gaussian profile.
 const REACH: f32 = 4.0;
 
 fn apply(canvas: &mut Canvas, drawn: &Realisation) {

@@ -1,4 +1,4 @@
-//! Lamps or exposure that fade during the recording.
+//! Fault of pictures: lamps or exposure that fade during the recording.
 
 use crate::fault::{Effect, Fault, Scope};
 

@@ -1,4 +1,4 @@
-//! A longer exposure, or more gain.
+//! Fault of pictures: a longer exposure, or more gain.
 
 use crate::canvas::{Canvas, Realisation};
 use crate::fault::{Effect, Fault, Scope};

@@ -1,4 +1,4 @@
-//! Noise of the transducer that measures the labels.
+//! Fault of labels: noise of the force transducer that measures them.
 
 use taceva_core::random::{fnv_1a, open_unit};
 use taceva_core::{Column, Unit};

@@ -1,4 +1,4 @@
-//! Compression as by cameras that send JPEG pictures.
+//! Fault of pictures: JPEG compression, as in cameras that send compressed pictures.
 
 use std::array::from_fn;
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -20,9 +20,9 @@ pub(super) static FAULT: Fault = Fault {
     effect: Effect::Numbers(apply),
 };
 
-/// Side of a block.
+/// Side of a JPEG block, in pixels.
 const SIDE: usize = 8;
-/// Middle of the 256 levels.
+/// Middle of the 256 levels, which JPEG subtracts before the transform.
 const MIDDLE: f32 = 128.0;
 /// Matrix from red, green and blue to brightness and two colour differences (ITU-T T.871).
 const TO: [[f32; 3]; 3] = [
@@ -37,7 +37,7 @@ const FROM: [[f32; 3]; 3] = [
     [1.0, 1.772, 0.0],
 ];
 
-/// Values of a block, row by row.
+/// Values of a JPEG block, row by row.
 type Block = [[f32; SIDE]; SIDE];
 
 /// Quantisation steps of brightness (ITU-T T.81, table K.1).
@@ -63,7 +63,7 @@ const COLOUR: Block = [
     [99.0, 99.0, 99.0, 99.0, 99.0, 99.0, 99.0, 99.0],
 ];
 
-/// Cosines of k · π / 16 for k from 0 to 8, as literals: a library of the system may round them otherwise.
+/// Cosines of k · π / 16 for k from 0 to 8. They are literals, because mathematical libraries round them differently.
 const COSINES: [f64; 9] = [
     1.0,
     0.980_785_280_403_230_4,
@@ -76,7 +76,7 @@ const COSINES: [f64; 9] = [
     0.0,
 ];
 
-/// Weights of the discrete cosine transform, with a row for each frequency, and of its inverse, with a row for each place.
+/// Weights of the discrete cosine transform and of its inverse. The first has a row for each frequency, the second for each place.
 static WEIGHTS: LazyLock<[Block; 2]> = LazyLock::new(|| {
     let forward: Block = from_fn(|frequency| {
         let scale = if frequency == 0 { FRAC_1_SQRT_2 } else { 1.0 };
@@ -127,7 +127,7 @@ fn apply(canvas: &mut Canvas, drawn: &Realisation) {
     }
 }
 
-/// Sum of `numbers` with the weights in row `at`; a single number is unchanged.
+/// Sum of `numbers`, weighted by the row `at` of `weights`. A single number (a gray value) is returned unchanged.
 fn mixed(weights: &[[f32; 3]; 3], numbers: &[f32], at: usize) -> f32 {
     match numbers {
         [only] => *only,
@@ -140,7 +140,7 @@ fn product(numbers: &[f32], weights: &[f32]) -> f32 {
     products.map(|(number, weight)| number * weight).sum()
 }
 
-/// Quantisation steps of the coefficients at the quality 100 − `lost`, scaled as by the encoder of the Independent JPEG Group.
+/// Quantisation steps at the JPEG quality 100 − `lost`, scaled from `table` as the encoder of the Independent JPEG Group does.
 fn steps(table: &Block, lost: f32) -> Block {
     let quality = (100.0 - lost).max(1.0);
     let percent = match quality < 50.0 {
@@ -151,7 +151,7 @@ fn steps(table: &Block, lost: f32) -> Block {
     table.map(|row| row.map(|step| (step * percent / 100.0 + 0.5).floor().clamp(1.0, 255.0)))
 }
 
-/// One plane of a picture: brightness, or a colour difference.
+/// Plane of a picture: the brightness, or one colour difference, of all its pixels.
 struct Plane {
     width: usize,
     height: usize,
@@ -159,7 +159,7 @@ struct Plane {
 }
 
 impl Plane {
-    /// The plane with half of its columns: means of two neighbours, as cameras send colour differences.
+    /// Plane with half of the columns. Each value is the mean of two neighbours, as cameras subsample colour differences.
     fn halved(&self) -> Plane {
         let rows = self.values.chunks_exact(self.width);
         let pairs = rows.flat_map(|row| row.chunks(2));
@@ -171,7 +171,7 @@ impl Plane {
         }
     }
 
-    /// Rounds the coefficients of each block to multiples of `steps`. A block beyond the edge of the plane repeats the pixels at the edge.
+    /// Rounds the cosine coefficients of each block to multiples of `steps`. Beyond the edge of the plane, a block repeats the pixels at the edge.
     fn compress(&mut self, steps: &Block) {
         let [forward, inverse] = &*WEIGHTS;
         for top in (0..self.height).step_by(SIDE) {
@@ -198,12 +198,12 @@ impl Plane {
     }
 }
 
-/// Transform of a block along rows and columns.
+/// Cosine transform of a block along its rows and columns, or the inverse, according to `weights`.
 fn transformed(block: &Block, weights: &Block) -> Block {
     turned(&turned(block, weights), weights)
 }
 
-/// Transform of each row, written as a column.
+/// Transforms each row of `block`, and transposes the result.
 fn turned(block: &Block, weights: &Block) -> Block {
     from_fn(|place| from_fn(|row| product(&block[row], &weights[place])))
 }

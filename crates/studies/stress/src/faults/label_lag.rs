@@ -1,4 +1,4 @@
-//! Labels of a clock that is late.
+//! Fault of labels: the clock of the labels is late.
 
 use taceva_core::Column;
 use taceva_dataset::Dataset;
@@ -33,7 +33,7 @@ fn change(labels: &Labels<'_>, milliseconds: f64) -> Column {
         .collect()
 }
 
-/// Label `seconds` after the time of a row, linear between rows; `None` without a label. After the last row of a contact, its label is used.
+/// Label `seconds` after the time of `row`, interpolated linearly; `None` without a label. After the last row of a contact, the label of that row.
 fn after(
     labels: &Labels<'_>,
     followers: &[Option<usize>],

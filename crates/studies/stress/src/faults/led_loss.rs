@@ -16,7 +16,7 @@ pub(super) static FAULT: Fault = Fault {
     effect: Effect::Leds(apply),
 };
 
-/// Dims the colours whose LEDs stand at the lost side; all colours from the left if no side is known.
+/// Dims the colours whose LEDs are on the lost side. If no side is known, dims all colours from the left.
 fn apply(canvas: &mut Canvas, drawn: &Realisation, leds: Leds) {
     let lost = lost_side(leds);
     let is_lost = leds.sides().map(|side| side == lost);
@@ -38,12 +38,12 @@ fn apply(canvas: &mut Canvas, drawn: &Realisation, leds: Leds) {
     }
 }
 
-/// First of left, right, top and bottom at which LEDs stand; `None` if no side is known.
+/// Side whose LEDs dim: the first of left, right, top and bottom with LEDs; `None` if no side is known.
 fn lost_side(leds: Leds) -> Option<PictureSide> {
     leds.sides().into_iter().flatten().min()
 }
 
-/// Remark on the side whose LEDs dim; `None` if no side is known.
+/// Note in the report on the side whose LEDs dim; `None` if no side is known.
 pub(crate) fn note_on(leds: Leds) -> Option<String> {
     let side = lost_side(leds)?;
     Some(format!(

@@ -1,4 +1,4 @@
-//! Markers that fall off or fade.
+//! Fault of pictures: markers that fall off or fade.
 
 use taceva_core::{single, whole_size};
 
@@ -18,9 +18,9 @@ pub(super) static FAULT: Fault = Fault {
     effect: Effect::Markers(apply),
 };
 
-/// Radius of the paint, in marker spacings.
+/// Radius of the painted spot of a marker, in marker spacings.
 const PAINTED: f64 = 0.35;
-/// Radius of the ring of gel around the paint, in marker spacings.
+/// Outer radius of the ring of gel around a marker, in marker spacings.
 const RING: f64 = 0.55;
 
 fn apply(canvas: &mut Canvas, drawn: &Realisation, markers: &Markers) {
@@ -39,7 +39,7 @@ fn apply(canvas: &mut Canvas, drawn: &Realisation, markers: &Markers) {
     }
 }
 
-/// Mixes the pixels of a marker with the mean of the ring around it.
+/// Replaces the pixels of a marker, to the share `strength`, by the mean of the ring of gel around the marker.
 fn paint(canvas: &mut Canvas, place: [f64; 2], spacing: f64, strength: f64) {
     let (painted, ring) = (PAINTED * spacing, RING * spacing);
     let mut inside = Vec::new();

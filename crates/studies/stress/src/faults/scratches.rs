@@ -1,4 +1,4 @@
-//! Wear of the coating.
+//! Fault of pictures: scratches in the coating.
 
 use crate::canvas::{Canvas, Defect, Realisation, index};
 use crate::fault::{Effect, Fault, LIES_STILL, Scope};
@@ -14,9 +14,9 @@ pub(super) static FAULT: Fault = Fault {
     effect: Effect::Numbers(apply),
 };
 
-/// Brightness that a scratch adds, as a share of full scale.
+/// Brightness that a scratch adds, as a fraction of the greatest pixel value.
 const LIGHT: f32 = 40.0 / 255.0;
-/// Attempts to draw a direction; for fewer than one line in 10³⁸, all attempts fail.
+/// Number of attempts to draw the random direction of a scratch. All fail for fewer than one scratch in 10³⁸.
 const ATTEMPTS: u64 = 60;
 
 fn apply(canvas: &mut Canvas, drawn: &Realisation) {
@@ -45,7 +45,7 @@ fn draw(canvas: &mut Canvas, line: &Defect) {
     }
 }
 
-/// Random direction: a point of the disc, moved to its edge.
+/// Random direction as a unit vector. A random point of the unit disc is divided by its length.
 fn direction(line: &Defect) -> [f32; 2] {
     let points = (0..ATTEMPTS).map(|attempt| {
         let coordinate = |counter: u64| 2.0 * line.unit(3 + 2 * attempt + counter) - 1.0;

@@ -1,4 +1,4 @@
-//! Noise of the camera.
+//! Fault of pictures: noise of the camera.
 
 use std::sync::LazyLock;
 
@@ -25,12 +25,12 @@ pub(super) static FAULT: Fault = Fault {
     effect: Effect::Numbers(apply),
 };
 
-/// Number of bits that choose a level of the normal distribution.
+/// Number of random bits that choose one of the tabulated values of the normal distribution.
 const BITS: u32 = 12;
-/// Number of levels that one random word chooses.
+/// Number of tabulated values that one random word of 64 bits chooses.
 const LEVELS_A_WORD: usize = 5;
 
-/// Levels of the normal distribution with equal probabilities.
+/// Tabulated values of the standard normal distribution. All are equally probable.
 static LEVELS: LazyLock<Vec<f32>> = LazyLock::new(|| {
     let count = 1_u16 << BITS;
     let share = |level: u16| (f64::from(level) + 0.5) / f64::from(count);

@@ -1,4 +1,4 @@
-//! A camera or a program that repeats pictures.
+//! Fault of pictures: a camera or a program that repeats pictures.
 
 use crate::fault::{Effect, Fault, Scope};
 

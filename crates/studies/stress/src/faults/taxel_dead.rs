@@ -1,4 +1,4 @@
-//! Taxels that no longer measure.
+//! Fault of signals: taxels that no longer respond.
 
 use crate::fault::{Effect, Fault, Scope};
 use crate::taxels::{BY_PARAMETER, TaxelChange, TaxelDraw};

@@ -1,4 +1,4 @@
-//! Taxels whose offset moves with time.
+//! Fault of signals: taxels whose offset drifts with time.
 
 use crate::fault::{Effect, Fault, Scope};
 use crate::taxels::{BY_PARAMETER, TaxelChange, TaxelDraw, finite};

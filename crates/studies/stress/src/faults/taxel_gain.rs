@@ -1,4 +1,4 @@
-//! Taxels whose amplification is wrong.
+//! Fault of signals: taxels whose gain is wrong.
 
 use crate::fault::{Effect, Fault, Scope};
 use crate::taxels::{BY_PARAMETER, TaxelChange, TaxelDraw, finite};

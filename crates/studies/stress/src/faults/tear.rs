@@ -1,4 +1,4 @@
-//! A tear of the coating.
+//! Fault of pictures: a tear of the coating.
 
 use crate::canvas::{Canvas, Realisation};
 use crate::fault::{Effect, Fault, LIES_STILL, Scope};
@@ -14,7 +14,7 @@ pub(super) static FAULT: Fault = Fault {
     effect: Effect::Numbers(apply),
 };
 
-/// Share of the light that is lost.
+/// Fraction of the light that is lost at the tear.
 const LOST: f32 = 0.8;
 
 fn apply(canvas: &mut Canvas, drawn: &Realisation) {

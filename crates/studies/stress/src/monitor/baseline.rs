@@ -1,11 +1,11 @@
-//! Mean of untouched pictures, and the difference of a picture from it.
+//! Mean of untouched pictures (without contact), and the difference of a picture from this mean.
 
 use taceva_core::{Frame, FrameInfo, single};
 
-/// Number of cells across the width of a picture.
+/// Number of square cells across the width of a picture.
 const ACROSS: usize = 16;
 
-/// Mean of untouched pictures, divided into cells.
+/// Mean of untouched pictures, and the division of a picture into cells.
 #[derive(Clone, Debug)]
 pub(super) struct Baseline {
     /// Mean of each pixel value over the untouched pictures.
@@ -20,19 +20,20 @@ pub(super) struct Baseline {
 /// Difference of a picture from the mean of untouched pictures.
 ///
 /// # Units
-/// Shares of full scale.
+/// Fractions of full scale.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Difference {
-    /// Mean difference: brighter is above 0.
+    /// Mean difference over all pixel values, above 0 for a brighter picture.
     pub(super) level: f64,
-    /// Mean absolute difference of cells after correction for a common factor of brightness. Pixel noise hardly changes it.
+    /// Mean over all cells of the absolute mean difference of a cell, after the common change of brightness is removed. Pixel noise hardly affects
+    /// it.
     pub(super) pattern: f64,
-    /// Mean absolute difference of pixel values from the mean difference of their cell, after the same correction.
+    /// Mean over all pixel values of the absolute deviation of their difference from that of their cell, after the same correction.
     pub(super) detail: f64,
 }
 
 impl Baseline {
-    /// Mean of `count` pictures of `info`, whose pixel values have these `sums`.
+    /// Computes the mean of `count` pictures of the size and format `info`. `sums` has the sum of each pixel value over the pictures.
     pub(super) fn new(info: FrameInfo, sums: &[u32], count: u32) -> Baseline {
         let (width, height) = (info.width as usize, info.height as usize);
         let colours = info.format.samples();
@@ -61,7 +62,7 @@ impl Baseline {
         }
     }
 
-    /// Difference of `frame`, which has the size and format of the baseline.
+    /// Difference of `frame` from the mean. `frame` has the size and format of the baseline.
     pub(super) fn difference(&self, frame: &Frame) -> Difference {
         let numbers = self.means.len() as f64;
         let sum: f64 = self.means.iter().map(|mean| f64::from(*mean)).sum();
@@ -85,7 +86,7 @@ impl Baseline {
         }
     }
 
-    /// Difference of each pixel value of `frame` from its mean, minus `factor` times the mean.
+    /// Difference of each pixel value of `frame` from the mean of this pixel value, minus `factor` times the mean.
     fn residuals<'a>(
         &'a self,
         frame: &'a Frame,
@@ -102,7 +103,7 @@ impl Baseline {
     }
 }
 
-/// Difference of one pixel value, and the index of its cell.
+/// Difference of one pixel value from its mean, and the index of its cell.
 struct Residual {
     value: f64,
     cell: usize,
@@ -114,7 +115,7 @@ mod tests {
 
     use super::*;
 
-    /// Gray pictures of 32 × 32 pixels: a mean of 100, and `change` at each place.
+    /// Difference of a gray picture of 32 × 32 pixels from a mean of 100. `change` gives the value of each pixel.
     fn difference(change: impl Fn(usize, usize) -> u8) -> Difference {
         let info = FrameInfo {
             width: 32,

@@ -4,21 +4,21 @@ use std::fmt;
 
 use super::limit::WINDOW;
 
-/// Kind of a change.
+/// Kind of a change of the pictures of a sensor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Change {
     /// Untouched pictures differed from the reference before the monitor began.
     Reference,
-    /// Untouched pictures are brighter or darker: light, exposure.
+    /// Untouched pictures are brighter or darker. Typical causes: light, exposure.
     Brightness,
-    /// Untouched pictures have changed in large parts: a lamp, position, a tear.
+    /// Large parts of untouched pictures have changed. Typical causes: a lamp, a moved camera, a tear.
     Pattern,
-    /// Untouched pictures have changed in detail: blur, noise, dead pixels, bad lines, scratches, dust.
+    /// Details of untouched pictures have changed. Typical causes: blur, noise, dead pixels, bad lines, scratches, dust.
     Detail,
-    /// Lines of some untouched pictures are displaced or lost: a cable, a connector.
+    /// Lines of some untouched pictures are displaced or lost. Typical causes: a cable, a connector.
     Lines,
-    /// Untouched pictures repeat the previous picture.
+    /// Some untouched pictures are equal to the previous picture.
     Repeats,
     /// Pictures of contact are unlike the training pictures.
     Contact,
@@ -80,7 +80,7 @@ pub struct Alarm {
     pub change: Change,
     /// Number of the picture, from 1, among all untouched pictures, or among all pictures of contact.
     pub picture: u64,
-    /// Stimulus: the change divided by the change by contact. For repeats and contact, the share of the newest 30 pictures.
+    /// Change of the pictures divided by their change by contact. For repeats and contact: the fraction of the newest 30 pictures with the change.
     pub strength: f64,
 }
 

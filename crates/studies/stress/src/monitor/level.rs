@@ -1,4 +1,4 @@
-//! Brightness of untouched pictures, as a mean over the newest pictures, because a single picture flickers.
+//! Brightness of untouched pictures. A mean over the newest pictures is compared, because a single picture flickers.
 //!
 //! Real flicker is not independent: lamps beat with the exposure. Means of successive pictures, taken while the limit is set, measure this flicker.
 
@@ -8,17 +8,17 @@ use taceva_metrics::distributions::student_t;
 
 use super::limit::{LEARNT, RUNS, WINDOW};
 
-/// Number of standard errors of the difference of two means that counts as a change.
+/// Minimum difference of two mean brightnesses that counts as a change, in standard errors of this difference.
 const ERRORS: f64 = 6.5;
-/// Least stimulus of brightness that counts as a change.
+/// Minimum difference of mean brightness that counts as a change, as a ratio to the change by contact.
 const LEAST: f64 = 0.1;
-/// Greatest change that one picture contributes, in multiples of the limit. A few outliers are then no change.
+/// Greatest change that one picture contributes to the mean, in multiples of the limit. A few outliers thus cause no alarm.
 const MOST: f64 = 5.0;
 
-/// Brightness of each untouched picture, with the mean and the spread of the first values.
+/// Brightness of the newest untouched pictures, and the limit that the first pictures set.
 #[derive(Clone, Debug)]
 pub(super) struct Level {
-    /// Number of pictures that set the limit, at least [`WINDOW`].
+    /// Number of untouched pictures that set the limit, at least [`WINDOW`].
     wanted: usize,
     learnt: Vec<f64>,
     usual: Option<Usual>,
@@ -28,7 +28,7 @@ pub(super) struct Level {
 #[derive(Clone, Copy, Debug)]
 struct Usual {
     mean: f64,
-    /// Least change that is found.
+    /// Minimum change of the mean brightness that is found, as a ratio to the change by contact.
     limit: f64,
 }
 
@@ -49,13 +49,13 @@ impl Level {
         self.wanted = pictures;
     }
 
-    /// Least change that is found. `None` before the limit is set.
+    /// Minimum change of the mean brightness that is found, as a ratio to the change by contact. `None` before the limit is set.
     pub(super) fn smallest(&self) -> Option<f64> {
         self.usual.map(|of| of.limit)
     }
 
-    /// Takes the brightness of the next picture. If the mean of the newest pictures is beyond the limit, returns the median change of the pictures
-    /// beyond the limit; `None` otherwise.
+    /// Takes the brightness of the next picture. If the mean change of the newest pictures exceeds the limit, returns the median change of those that
+    /// exceed it, otherwise `None`.
     pub(super) fn push(&mut self, brightness: f64) -> Option<f64> {
         if self.newest.len() == WINDOW {
             self.newest.pop_front();
@@ -97,7 +97,8 @@ impl Level {
     }
 }
 
-/// Expected number of false alarms in `pictures` untouched pictures with normal, independent flicker. The sum over all windows is an upper bound.
+/// Upper bound of the expected number of false alarms in `pictures` untouched pictures with normal, independent flicker: a sum over all runs of
+/// [`WINDOW`] pictures.
 pub(super) fn false_alarms(pictures: u64) -> f64 {
     2.0 * student_t::above(ERRORS, LEARNT as f64 - 1.0) * pictures as f64
 }
@@ -126,7 +127,7 @@ mod tests {
         assert!(found.iter().all(|of| (of - 0.3).abs() < 1e-9), "{found:?}");
     }
 
-    /// A level that has learnt from steady brightness.
+    /// Level whose limit was set by pictures of almost constant brightness.
     fn steady() -> Level {
         let mut level = Level::default();
         for _ in 0..LEARNT {

@@ -1,49 +1,50 @@
-//! Limit that untouched pictures set, and the newest pictures beyond it.
+//! Limit of a measured value, set by untouched pictures, and the newest pictures that exceed the limit.
 
 use std::collections::VecDeque;
 
 /// Number of pictures that set a limit.
 pub(super) const LEARNT: usize = 200;
-/// Newest pictures that are compared with the limit.
+/// Number of newest pictures that are compared with the limit.
 pub(super) const WINDOW: usize = 30;
 
-/// Least limit, in multiples of the greatest excess of a run of [`WINDOW`] pictures. This limit exceeds other limits if flicker is slow.
+/// Minimum limit, in multiples of the greatest excess of any run of [`WINDOW`] pictures while the limit is set. Slow flicker makes this limit
+/// decisive.
 pub(super) const RUNS: f64 = 3.0;
 
-/// Numbers of pictures that decide about the limit and about a change.
+/// Numbers of pictures that determine the limit, and that show a change.
 #[derive(Clone, Copy, Debug)]
 struct Rule {
-    /// Least number of the newest pictures beyond the limit that shows a change.
+    /// Minimum number of pictures among the newest [`WINDOW`] that must exceed the limit to show a change.
     beyond: usize,
-    /// Number of pictures of a run whose excess over the median is at least the excess of the run.
+    /// Rank of the picture, from the greatest value in a run of [`WINDOW`] pictures, whose excess over the median is the excess of the run.
     reach: usize,
-    /// Rank of the limit among [`LEARNT`] pictures, from the greatest number.
+    /// Rank of the value that becomes the limit, from the greatest value of [`LEARNT`] pictures.
     rank: usize,
 }
 
-/// Rule: most of the newest pictures are beyond the limit.
+/// Rule for a change after which most pictures exceed the limit.
 const MOST: Rule = Rule {
     beyond: 19,
     reach: 19,
     rank: 20,
 };
-/// Rule: a few of the newest pictures are far beyond every picture that set the limit.
+/// Rule for a change after which a few pictures exceed all pictures that set the limit by far.
 const SOME: Rule = Rule {
     beyond: 3,
     reach: 1,
     rank: 1,
 };
 
-/// A number of each untouched picture, with its limit.
+/// Value that is measured in each untouched picture, with its limit.
 #[derive(Clone, Debug)]
 pub(super) struct Limited {
     rule: Rule,
-    /// Least excess over the median that counts as beyond.
+    /// Minimum distance of the limit from the median.
     least: f64,
-    /// Number of pictures that set the limit, at least [`WINDOW`].
+    /// Number of untouched pictures that set the limit, at least [`WINDOW`].
     wanted: usize,
     learnt: Vec<f64>,
-    /// Limit, set by the last of the `wanted` pictures; `None` before.
+    /// Limit; `None` until `wanted` pictures were taken.
     limit: Option<Limit>,
     newest: VecDeque<f64>,
 }
@@ -55,12 +56,12 @@ struct Limit {
 }
 
 impl Limited {
-    /// A limit that most of the newest pictures exceed after a change.
+    /// Creates a limit. A change is found if most of the newest pictures exceed it.
     pub(super) fn by_most(least: f64) -> Limited {
         Limited::new(MOST, least)
     }
 
-    /// A limit that at least three of the newest pictures exceed after a change.
+    /// Creates a limit. A change is found if at least three of the newest pictures exceed it.
     pub(super) fn by_some(least: f64) -> Limited {
         Limited::new(SOME, least)
     }
@@ -86,12 +87,13 @@ impl Limited {
         self.wanted.saturating_sub(self.learnt.len())
     }
 
-    /// Least excess over the median that is found. `None` before the limit is set.
+    /// Distance of the limit from the median, which is the smallest excess that is found. `None` before the limit is set.
     pub(super) fn smallest(&self) -> Option<f64> {
         self.limit.map(|of| of.limit - of.median)
     }
 
-    /// Takes the number of the next picture. Returns the median excess of the newest pictures beyond the limit; `None` if these are too few.
+    /// Takes the value of the next picture. Returns the median excess over the median of the newest pictures that exceed the limit; `None` if they
+    /// are too few.
     pub(super) fn push(&mut self, number: f64) -> Option<f64> {
         let Some(Limit { median, limit }) = self.limit else {
             self.learnt.push(number);
@@ -131,17 +133,17 @@ impl Limited {
     }
 }
 
-/// Expected number of false alarms of one measured value in `pictures` untouched pictures that are exchangeable with the pictures that set the limit.
+/// Upper bound of the expected number of false alarms of one measured value in `pictures` untouched pictures. They must be exchangeable with the
+/// pictures that set the limit.
 ///
-/// The share q of pictures beyond the k-th greatest of n numbers follows Beta(k, n + 1 − k), whatever the distribution of the numbers.
-/// The number of pictures of a window beyond the limit is therefore beta-binomial. The sum over all windows is an upper bound, because windows
-/// overlap.
+/// The fraction of pictures above the k-th greatest of n values follows Beta(k, n + 1 − k), whatever their distribution. The number of pictures above
+/// it in a window of [`WINDOW`] pictures is thus beta-binomial. The sum over all windows is an upper bound, because windows overlap.
 pub(super) fn false_alarms(pictures: u64) -> f64 {
     let chance: f64 = (MOST.beyond..=WINDOW).map(chance_of).sum();
     pictures as f64 * chance
 }
 
-/// Probability that exactly `beyond` pictures of a window are beyond the limit.
+/// Probability that exactly `beyond` of [`WINDOW`] successive pictures exceed the limit.
 fn chance_of(beyond: usize) -> f64 {
     let within = WINDOW - beyond;
     let rising = |from: usize, factors: usize| -> f64 {

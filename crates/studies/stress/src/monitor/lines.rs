@@ -1,9 +1,9 @@
-//! Lines that change between successive pictures.
+//! Picture lines that change between successive pictures.
 
 use taceva_core::Frame;
 
-/// Mean absolute change of the line that changes most from `before` to `frame`, minus the mean over all lines, as a share of full scale. A lasting
-/// change appears only once.
+/// Mean absolute change of the line that changes most from `before` to `frame`, minus the mean over all lines. The unit is full scale. A lasting
+/// change appears only in the first pair of pictures.
 pub(super) fn line_change(before: &Frame, frame: &Frame) -> f64 {
     let info = frame.info();
     let length = info.width as usize * info.format.samples();

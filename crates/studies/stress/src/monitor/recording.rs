@@ -9,13 +9,13 @@ use super::limit::WINDOW;
 use super::{Monitor, SETTLED, framed};
 use crate::scale::{Touch, touches};
 
-/// Number of successive pictures in each run to learn. Pictures far apart would hide that successive pictures are alike.
+/// Number of successive pictures in each run from which a monitor learns. Pictures far apart would hide that successive pictures are alike.
 const RUN: usize = SETTLED as usize;
 
 impl Monitor {
     /// Learns from untouched pictures of `dataset`, the recording of the calibration: five evenly spaced runs of 50 successive pictures, or all
-    /// untouched pictures. Returns false if it has fewer than [`LEAST_PICTURES`](Monitor::LEAST_PICTURES). The monitor then learns from the pictures
-    /// that it watches. It finds a change since the calibration only if the change exceeds the change by contact.
+    /// untouched pictures. Returns false if the recording has fewer than [`LEAST_PICTURES`](Monitor::LEAST_PICTURES) untouched pictures. The monitor
+    /// then learns from the pictures that it watches. It finds an older change only if the change exceeds that by contact.
     ///
     /// # Errors
     /// Errors of reading.
