@@ -78,7 +78,7 @@ fn split(text: &str) -> Vec<String> {
     parts
 }
 
-/// True if the type, by value or by reference, is a tuple of two or more.
+/// True if the type, by value or by reference, is a tuple of two or more elements.
 fn is_tuple(kind: &str) -> bool {
     let kind = kind
         .trim_start_matches(['&', ' '])

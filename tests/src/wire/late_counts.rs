@@ -20,13 +20,13 @@ pub struct HaltTimes {
     pub halts: u64,
     /// Longest call of a driver's halt, ms.
     pub call_ms: f64,
-    /// Longest time to rest that reports of the robot showed, ms.
+    /// Longest time from the decision to halt until the robot reported rest, ms.
     pub rest_ms: f64,
     /// Late halts by cause.
     pub late: LateCounts,
 }
 
-/// Starts of three lines: counts of a session, halts of a session, and one miss.
+/// Start of the line with the counts of late events in a session. [`HALTS`] starts the line about halts, and [`ONE`] a line about one late event.
 const COUNTS: &str = "taceva: late in this session: ";
 const HALTS: &str = "taceva: halts in this session: ";
 const ONE: &str = "taceva: late: ";
@@ -53,12 +53,12 @@ impl LateCounts {
         }
     }
 
-    /// Number of misses.
+    /// Number of late events, over all causes.
     pub fn total(&self) -> u64 {
         self.kernel + self.program + self.device + self.unknown
     }
 
-    /// Lines about single misses in the output of a study.
+    /// Lines in the output of a study that describe one late event each.
     pub fn lines(said: &str) -> impl Iterator<Item = &str> {
         said.lines().filter(|line| line.starts_with(ONE))
     }

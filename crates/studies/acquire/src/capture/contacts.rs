@@ -7,7 +7,7 @@ const BEGINS_N: f64 = 0.1;
 /// Normal force below which a contact ends, in N.
 const ENDS_N: f64 = 0.05;
 
-/// Numbering of the contacts of a capture. `rest-0` is the time before the first contact, which is `hand-1`.
+/// Numbering of the contacts of a capture. The first contact is `hand-1`, and the time before it is `rest-0`.
 ///
 /// A rest is not a contact point. Frames of one rest have the same name, so that a training/test split does not separate them.
 #[derive(Debug)]

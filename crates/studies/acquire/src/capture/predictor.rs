@@ -112,7 +112,7 @@ impl<'a> LivePredictor<'a> {
         self.failure.get().map(String::as_str)
     }
 
-    /// Stored predictions.
+    /// Stored predictions; `None` if no table was requested.
     pub(super) fn table(&self) -> Option<MutexGuard<'_, PredictionTable>> {
         self.table.as_ref().map(lock)
     }

@@ -1,4 +1,4 @@
-//! Changers of a rig: opened from the rig file and called with a deadline. Their result is checked by the name that they report.
+//! Changers of a rig, opened from the rig file. Each call has a deadline. After a change, the name of the item that the changer reports is checked.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;

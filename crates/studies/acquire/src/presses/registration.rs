@@ -1,4 +1,5 @@
-//! Converts devices of a rig file to the frame of the sensor. Poses are converted by the registration of the robot, and wrenches by the axes of the transducer.
+//! Wrappers that convert poses and wrenches to the frame of the sensor. The rig file states the position of the robot's base, and the axes of the
+//! transducer.
 
 use std::sync::Arc;
 
@@ -159,7 +160,7 @@ mod tests {
 
     use super::*;
 
-    /// Test robot that is at its last target, in its base frame.
+    /// Test robot that is always at its last target pose, in its base frame.
     struct Arm(Pose);
 
     struct Rests;

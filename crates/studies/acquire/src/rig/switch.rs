@@ -18,7 +18,7 @@ pub struct SwitchCheck {
     pub held: u32,
     /// Number of presses and releases detected between readings.
     pub changes: u32,
-    /// Longest response time of a reading, in ms. The delay within the device is not included.
+    /// Longest time for one reading of the switch, in ms. The delay within the device is not included.
     pub longest_ms: f64,
 }
 

@@ -92,7 +92,7 @@ pub(super) struct Listeners<'a> {
 }
 
 impl Listeners<'_> {
-    /// Informs an operator who is being asked a question that the force is lost.
+    /// Informs the operator and the viewer that the force is lost.
     fn lose(&self, error: &DriverError) {
         let words = format!(
             "the force is lost: {error}; the robot stays halted: stop, check cable and power of the transducer, and continue with `--resume`"
