@@ -1,4 +1,4 @@
-//! Tests that a study has the same bytes for devices that are linked in, loaded as a plugin in process, or run in a confined child process.
+//! Tests that a study has the same bytes for three kinds of devices: linked in, loaded as a plugin in process, or run in a confined child process.
 
 use std::path::Path;
 use std::process::{Command, Stdio};

@@ -110,8 +110,8 @@ fn an_import_that_replaces_a_dataset_leaves_the_old_one_or_the_new_one_in_place(
     assert_old_or_new("import --force", &trace, [replaced, expected]);
 }
 
-/// Asserts that after a power cut at any operation of `trace`, the dataset is the old or the new one, and the new one once it was reported. Nothing
-/// else may remain.
+/// Asserts that after a power cut at any operation of `trace`, the dataset is the old or the new one. It must be the new one once success was
+/// reported. Nothing else may remain.
 fn assert_old_or_new(command: &str, trace: &Trace, [old, new]: [Digest; 2]) {
     let counted = trace.each_state(0..trace.operations.len() + 1, |state| {
         let restarted = scratch();

@@ -1,10 +1,10 @@
 //! Emulated controller of Universal Robots: the real-time data exchange (port 30004), script (ports 30002 and 30003) and the dashboard (port 29999).
 //!
-//! Supported outputs and inputs: the outputs of a version by name (zeros for values that are not simulated), registers and the speed slider.
-//! Supported commands: `movel` to a pose, `speedl` for a time (without rotation), `stopl` after a register number, safety stops,
-//! the script of one public client, questions at the dashboard. Digital and analog outputs are accepted and ignored. Not supported: other inputs and
-//! script, inputs in use by another client, the states of port 30003, programs of the dashboard, acceleration. A motion of the joints
-//! goes straight, by the kinematics of a UR5.
+//! The data exchange has the outputs of the stated version by name (zeros for values that are not simulated), registers, and the speed slider. Script
+//! programs may contain `movel` to a pose, `speedl` for a time (without rotation), and `stopl` after a register number. The script of one public
+//! client is also supported, and so are safety stops and questions at the dashboard. Digital and analog outputs are accepted and ignored. Other
+//! inputs and programs, inputs in use by another client, the states of port 30003, programs of the dashboard, and acceleration are not supported. A
+//! motion of the joints moves the tip straight, by the kinematics of a UR5.
 
 mod controller;
 mod dashboard;
@@ -32,7 +32,7 @@ pub struct Emulator {
     controller: Arc<Controller>,
     states: Server,
     script: Server,
-    /// Second port for script, which some clients use.
+    /// Server of the second port for script programs, which some clients use.
     realtime: Server,
     dashboard: Server,
 }
@@ -47,8 +47,8 @@ pub const USUAL_REALTIME_PORT: u16 = 30_003;
 const PROGRAM_MAX: usize = 1 << 16;
 
 impl Emulator {
-    /// Starts an arm over the gel of `bench`: switched on, 20 mm above it; port 0 selects any free port. The dashboard and the second port
-    /// for script have their usual ports if both others have theirs, and otherwise any free ones.
+    /// Starts an arm over the gel of `bench`, switched on and 20 mm above it. `ports` are those of the data exchange and of script programs; port 0
+    /// selects any free port. If both are [`USUAL_PORTS`], the other two servers also have their usual ports.
     ///
     /// # Errors
     /// [`WireError`] if the server cannot listen on a port.

@@ -39,7 +39,7 @@ impl Words {
         Some(word.number)
     }
 
-    /// True for the command `letter` with `number`, which may be written as `G1` or `G01`.
+    /// True if the line contains the command `letter` with `number`, which may be written as `G1` or `G01`.
     pub(crate) fn has(&self, letter: char, number: u32) -> bool {
         let wanted = f64::from(number);
         let mut words = self.0.iter().filter(|word| word.letter == letter);

@@ -28,9 +28,9 @@ pub(super) enum Reference {
 
 /// Length of nine values, as in motions before firmware 1.11.100, bytes.
 const OLD_BYTES: usize = 36;
-/// Length of ten values, bytes; three switches follow.
+/// Length of the ten numbers of a motion, bytes. Three bytes with switches follow.
 const LONG_BYTES: usize = 40;
-/// Length of the eleven values of a difference, bytes; a switch for joints and one for rotation vectors follow.
+/// Length of the eleven numbers of a relative motion, bytes. Two bytes follow: a switch for joints, and a switch for rotation vectors.
 pub(super) const DIFFERENCE_BYTES: usize = 44;
 
 impl Line {
@@ -94,7 +94,7 @@ impl Line {
         })
     }
 
-    /// Parses the difference in the parameters of register 83; `None` for a difference of joints.
+    /// Parses the relative motion in the parameters of register 83; `None` if they describe a change of the joints.
     pub(super) fn relative(parameters: &[u8]) -> Option<Line> {
         let (values, &[0, has_rotation_vector, ref checked @ ..]) =
             parameters.split_at_checked(DIFFERENCE_BYTES)?
@@ -110,7 +110,7 @@ impl Line {
         })
     }
 
-    /// Target pose from `at`.
+    /// Target pose of the motion if it begins at the pose `at`.
     pub(super) fn end(&self, at: [f32; 6]) -> [f32; 6] {
         let here = Placement::of_pose(at);
         let wanted = match self.has_rotation_vector {

@@ -13,7 +13,7 @@ const PATIENCE: Deadline = Deadline::after(Duration::from_secs(20));
 /// Python of OctoPrint, as `.ci/install` installs it.
 const INSTALLED: &str = "../../target/printer/bin/python";
 
-/// A printer, ended on drop.
+/// Process with a virtual printer, ended on drop.
 struct Printer {
     process: Child,
     port: String,

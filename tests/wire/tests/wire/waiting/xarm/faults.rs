@@ -1,4 +1,4 @@
-//! Failing controllers and failing links.
+//! Tests of failing controllers and failing links.
 
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};

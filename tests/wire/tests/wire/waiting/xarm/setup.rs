@@ -11,7 +11,7 @@ pub(crate) fn setup(ports: Ports) -> Setup<Emulator> {
     Setup::with_arguments(factory, |bench| Emulator::start(bench, ports), arguments)
 }
 
-/// Driver arguments of this arm.
+/// Driver arguments for the emulated arm `arm`.
 fn arguments(arm: &Emulator) -> String {
     let port = |port| arm.address(port).port();
     let [command, pose, status, rich] =
