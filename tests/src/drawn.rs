@@ -69,7 +69,7 @@ impl Lab {
         Lab::numbered(form, order, pictures, 0)
     }
 
-    /// A folder with `count` drawn gray pictures, numbered from `first` on.
+    /// Creates a folder with `count` drawn gray pictures, numbered from `first` on.
     ///
     /// # Panics
     /// If the folder cannot be written, which ends the test.
@@ -98,7 +98,7 @@ impl Lab {
         Lab { folder }
     }
 
-    /// A folder with `count` drawn gray pictures.
+    /// Creates a folder with `count` drawn gray pictures.
     pub fn drawn(form: Form, count: u32) -> Lab {
         let pictures: Vec<Vec<u8>> = (0..count).map(|number| picture(form, number)).collect();
         Lab::new(form, "gray", &pictures)

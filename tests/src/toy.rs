@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Protocol that makes bytes durable.
+/// Method by which a toy program makes its bytes durable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Protocol {
     /// Overwrites the old file. Wrong, because a cut may leave content that is neither the old nor the new.

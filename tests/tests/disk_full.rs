@@ -1,4 +1,4 @@
-//! Full disk at every stage: the error says so, no partial file remains, and the work continues once there is space.
+//! Tests of a full disk at every stage. The error states this, no partial file remains, and the work continues once there is space.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

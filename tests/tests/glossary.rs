@@ -25,7 +25,7 @@ const REPLACED: &[(&str, &str)] = &[
     ("told", "predicted, given, distinguished"),
 ];
 
-/// Words replaced except in the listed crates.
+/// Replaced words, each with its replacement and the crates that may still use it.
 const REPLACED_BUT_IN: &[(&str, &str, &[&str])] = &[
     // `draft`: a first map for a folder of a laboratory.
     ("draft", "collect", &["taceva-cli", "taceva-import"]),

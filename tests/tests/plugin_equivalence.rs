@@ -21,7 +21,7 @@ protocol = { calibration = { points = 4, indentations = 2 }, spatial = { points 
 
 const PLUGIN: &str = "org.taceva.sim/";
 
-/// The bench as a plugin, in its own folder.
+/// Creates a folder that contains the simulated bench as a plugin.
 fn plugin() -> tempfile::TempDir {
     let folder = scratch();
     let built = library("taceva-sim-plugin");

@@ -3,7 +3,7 @@
 /// Number of a file or a folder, independent of its names; the watched folder is 0.
 pub type ObjectId = usize;
 
-/// The watched folder itself.
+/// Number of the watched folder.
 pub const ROOT: ObjectId = 0;
 
 /// Operation on the watched folder, or printed line.

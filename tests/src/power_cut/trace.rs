@@ -45,7 +45,7 @@ pub struct Trace {
     pub operations: Vec<Operation>,
     /// Exit status of the program.
     pub status: ExitStatus,
-    /// Standard error of the program.
+    /// Text that the program wrote to standard error.
     pub complaint: String,
 }
 

@@ -41,7 +41,7 @@ fn parameters(code: &str) -> Vec<(String, Vec<String>)> {
     found
 }
 
-/// Text up to the closing bracket of an open one.
+/// Part of `text` before the bracket that closes an earlier opening bracket.
 fn balanced(text: &str) -> &str {
     let mut depth = 1_usize;
     for (at, letter) in text.char_indices() {

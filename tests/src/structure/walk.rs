@@ -12,7 +12,7 @@ struct Stop {
     function: String,
 }
 
-/// Path of one value.
+/// Path of one value through the program.
 #[derive(Debug)]
 pub struct Walk {
     /// Heading of the path.

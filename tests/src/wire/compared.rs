@@ -29,7 +29,7 @@ pub struct Compared {
     pub share_part: f64,
 }
 
-/// Compares the run on the wire with the simulated one.
+/// Compares the run with emulated devices to the simulated run.
 ///
 /// # Panics
 /// If a recording cannot be read or the presses differ, which ends the test.

@@ -9,7 +9,7 @@ use taceva_wire::{ArmFault, BenchOptions, Device, Fault, FaultKind, ServeOptions
 use super::{HaltTimes, LateCounts, OnTheWire, RUN, UnderWay, scene_of};
 use crate::random::Random;
 
-/// A fault.
+/// Fault to inject in a case.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Wrong {
     /// Fault of a link, for a duration.
@@ -31,12 +31,12 @@ pub enum Outcome {
     Left,
 }
 
-/// A fault to play.
+/// A fault to inject, with the required outcome.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
     /// Name of the case.
     pub name: &'static str,
-    /// Fault.
+    /// Fault to inject.
     pub wrong: Wrong,
     /// Required outcome.
     pub outcome: Outcome,
@@ -118,9 +118,9 @@ pub struct Played {
     pub late: LateCounts,
     /// Halts of motions, as the studies counted them.
     pub halts: HaltTimes,
-    /// Greatest load average of a minute, at the start and end of each study; `None` if the system does not state it.
+    /// Greatest one-minute load average at the start or end of a study; `None` if the system does not state it.
     pub load: Option<f64>,
-    /// Forbidden outcomes.
+    /// Descriptions of forbidden outcomes.
     pub broken: Vec<String>,
 }
 

@@ -1,19 +1,19 @@
 //! Late turns of the guard, stale readings and halts, as studies print them.
 
-/// Counts by cause. The struct gets no further field.
+/// Counts of late events by cause. The struct gets no further field.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LateCounts {
-    /// The kernel woke the guard late, or kept it from a processor.
+    /// Number of events for which the kernel woke the guard late, or kept it from a processor.
     pub kernel: u64,
-    /// The work of the program or of a driver took too long.
+    /// Number of events for which the program or a driver worked too long.
     pub program: u64,
-    /// A device or its link was late.
+    /// Number of events for which a device or its link was late.
     pub device: u64,
-    /// The kernel does not state the cause.
+    /// Number of events for which the kernel does not state the cause.
     pub unknown: u64,
 }
 
-/// Halts of motions. The struct gets no further field.
+/// Number and durations of halts of motions. The struct gets no further field.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HaltTimes {
     /// Number of halts.

@@ -66,7 +66,7 @@ fn served(setup: Setup, axes: &str, arguments: &str, force: &str) -> OnTheWire {
     on
 }
 
-/// Runs the study to its end, and resumes it if the machine was too busy. Returns the error of any other end.
+/// Runs the study to its end, and resumes it if the machine was too busy. Returns the error if the study ends for any other reason.
 fn ended(on: &OnTheWire) -> Result<(), String> {
     for _ in 0..PATIENCE {
         match finished(on.study()) {

@@ -40,7 +40,7 @@ pub struct Truth {
     pub is_moving: bool,
     /// Length of the tip's path since the start of the bench, mm.
     pub way_mm: f64,
-    /// Time in motion since the start of the bench.
+    /// Time for which the tip was in motion since the start of the bench.
     pub in_motion: Duration,
     /// Time at which the tip was last seen in motion, since the start of the bench.
     pub moved: Duration,

@@ -30,7 +30,7 @@ pub struct Emulator {
 /// Firmware build of an emulated printer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Firmware {
-    /// Accepts a stop during a motion.
+    /// Executes a stop at once, even during a motion.
     StopsAtOnce,
     /// Executes a stop only after all commands that it received before.
     StopsInTurn,
@@ -89,7 +89,7 @@ impl Emulator {
         Ok(Emulator { printer, line })
     }
 
-    /// Damages the next numbered lines.
+    /// Damages the next `lines` numbered lines.
     pub fn damage(&self, lines: u32) {
         self.printer.inside().damaged = lines;
     }

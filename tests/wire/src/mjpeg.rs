@@ -35,7 +35,7 @@ pub enum Style {
     Lengthless,
 }
 
-/// Delimiter of two parts.
+/// Delimiter between two parts of the stream.
 const BOUNDARY: &str = "taceva-frame";
 /// Head of a part with a length beyond any memory.
 const HOSTILE: &[u8] =

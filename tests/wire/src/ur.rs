@@ -37,11 +37,11 @@ pub struct Emulator {
     dashboard: Server,
 }
 
-/// Ports that clients expect: data exchange, and script.
+/// Ports that clients expect: for the data exchange, and for script programs.
 pub const USUAL_PORTS: [u16; 2] = [30_004, 30_002];
 /// Port of the dashboard that clients expect.
 pub const USUAL_DASHBOARD_PORT: u16 = 29_999;
-/// Second port for script that clients expect.
+/// Second port for script programs that clients expect.
 pub const USUAL_REALTIME_PORT: u16 = 30_003;
 /// Maximum length of a program, bytes. The script of a public client has 42 kB.
 const PROGRAM_MAX: usize = 1 << 16;
@@ -103,7 +103,7 @@ impl Emulator {
         })
     }
 
-    /// Sets the speed slider, 0.01 to 1, which slows all later motions and is an output.
+    /// Sets the speed slider, 0.01 to 1. The slider slows all later motions, and clients can read it.
     pub fn set_slider(&self, slider: f64) {
         self.controller.set_slider(slider.clamp(0.01, 1.0));
     }

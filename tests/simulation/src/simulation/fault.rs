@@ -119,11 +119,11 @@ struct Fault {
     until_s: f64,
 }
 
-/// Purpose of the draws for the emergency stop.
+/// Index that separates the random draws for the emergency stop from all others.
 const STOP: u64 = 90;
-/// Purpose of the draws for missing reports.
+/// Index that separates the random draws for missing reports from all others.
 const NO_REPORTS: u64 = 91;
-/// Purpose of the draws for the enabling switch.
+/// Index that separates the random draws for the enabling switch from all others.
 const SWITCH: u64 = 92;
 
 /// Faults of a scenario.

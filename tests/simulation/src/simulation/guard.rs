@@ -74,7 +74,7 @@ impl Guard {
         }
     }
 
-    /// Time of the next thread's turn, s.
+    /// Time of the next turn of any thread, s.
     pub(super) fn next_s(&self) -> f64 {
         self.reader_s.min(self.watcher_s)
     }

@@ -39,7 +39,7 @@ pub(super) struct Journal<'a> {
 }
 
 impl<'a> Journal<'a> {
-    /// Opens the log and truncates a torn tail.
+    /// Opens the log, and removes an incomplete record at its end.
     pub(super) fn open(disk: &'a mut Disk, acknowledged: &'a mut Vec<ContentId>) -> Journal<'a> {
         let (entries, whole) = entries(&disk.read());
         disk.cut(whole);

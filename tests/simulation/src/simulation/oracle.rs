@@ -4,7 +4,7 @@ use std::fmt;
 
 use taceva_protocol::{RigLimits, SEGMENT_S};
 
-/// Longest time until a halt reaches the robot, s.
+/// Longest allowed time from a hazard until a halt reaches the robot, s.
 pub const HALT_WITHIN_S: f64 = 0.05;
 
 /// Violation of an invariant.
@@ -116,7 +116,7 @@ pub(super) const TOO_HARD: &str = "a force beyond the limit";
 /// Hazard: a robot that moves while nobody holds the enabling switch.
 pub(super) const UNHELD: &str = "an enabling switch that nobody holds";
 
-/// Limits of the rig and the stated overshoot.
+/// Limits of the rig, and the overshoot beyond these limits that the plan states.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stated {
     pub(super) depth_max_mm: f64,
@@ -265,7 +265,7 @@ impl Oracle {
         std::mem::take(&mut self.overlooked)
     }
 
-    /// Records the request `asked` after a call was rejected because of an emergency stop.
+    /// Records the forbidden request `asked` as a violation.
     pub(super) fn defied(&mut self, asked: &'static str) {
         self.violations.push(Violation::Defied(asked));
     }

@@ -24,7 +24,7 @@ use taceva_protocol::{
     Supervisor, Trip, plan, run, run_guarded,
 };
 
-/// Result of a seed.
+/// Result of running the scenario of one seed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimulationReport {
     /// Seed of the scenario.

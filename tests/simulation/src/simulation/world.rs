@@ -337,7 +337,7 @@ impl World {
         self.now_s + self.way_to(target) / speed_mm_s
     }
 
-    /// Position of a motion to `target` at `at_s`, at most its end.
+    /// Position at the time `at_s`, s, in a motion to `target` that begins now, mm. After the motion, the position is `target`.
     pub(super) fn on_way(&self, target: [f64; 3], speed_mm_s: f64, at_s: f64) -> [f64; 3] {
         let length_mm = self.way_to(target);
         let step_mm = speed_mm_s * (at_s - self.now_s).max(0.0);

@@ -17,11 +17,11 @@ pub struct Setup {
     pub filter: u8,
     /// Drift of the force zero along the transducer's own z axis, N a minute.
     pub drift_n_min: f64,
-    /// True for a page without the entries of the tool frame and of the low pass.
+    /// True if the page lacks the entries for the tool frame and the low pass filter.
     pub is_hidden: bool,
 }
 
-/// Entries of the tool frame and of the low pass.
+/// Names of the page's entries for the tool frame and the low pass filter.
 const HIDDEN: [&str; 4] = ["cfgtfx", "scfgtdu", "scfgtau", "setuserfilter"];
 
 /// Number of records that the box sends per second.
@@ -145,7 +145,7 @@ fn cross([ax, ay, az]: [f64; 3], [bx, by, bz]: [f64; 3]) -> [f64; 3] {
     [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]
 }
 
-/// Components of `vector` in a frame that is turned about x, then y, then z, by degrees.
+/// Components of `vector` in a frame that is rotated about x, then y, then z, by the angles `turns` in degrees.
 fn into_frame(vector: [f64; 3], turns: [f64; 3]) -> [f64; 3] {
     let mut turned = vector;
     for (axis, degrees) in turns.into_iter().enumerate() {

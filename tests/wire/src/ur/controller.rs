@@ -184,7 +184,7 @@ impl Controller {
         self.move_line(inside, pose, x.hypot(y).hypot(z) / within_s);
     }
 
-    /// Moves at a velocity until it expires.
+    /// Moves the tip at a velocity for `lasts_s`, s.
     fn cruise(&self, inside: &Inside, velocity_m_s: [f64; 3], lasts_s: f64) {
         self.bench.stand();
         let speed_mm_s = velocity_m_s.map(|side| side * 1e3 * inside.slider);

@@ -48,7 +48,7 @@ impl Inputs {
     }
 }
 
-/// Input by its name.
+/// Input of the controller that a recipe names.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Input {
     Integer(usize),

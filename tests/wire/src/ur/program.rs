@@ -13,7 +13,7 @@ pub(super) enum Program {
         velocity_m_s: [f64; 3],
         lasts_s: f64,
     },
-    /// Brakes, and reports its number if it has one.
+    /// Stops the motion, and reports the number of this stop if it has one.
     Stop { number: Option<i32> },
     /// The script of a public client that takes commands from registers.
     Registers(Setup),

@@ -68,17 +68,17 @@ pub(super) struct RegisterScript {
     progress: Progress,
 }
 
-/// Content of the first output register.
+/// State of the script, as its first output register shows it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum State {
     Ready = 1,
     Done = 2,
 }
 
-/// Progress of the present command. A command is executed once, even if it stays in the register.
+/// Stage of a command that is executed only once, even if it stays in the register.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Stage {
-    /// The script is ready for a command: the command register was 0, or repeats the last command.
+    /// The script is ready for a command: the command register was 0, or has a command that may be repeated.
     Free,
     /// A motion is in progress, and the script waits for its end.
     Moving,
@@ -96,7 +96,7 @@ struct Progress {
 }
 
 impl Setup {
-    /// Facts in the text of a script.
+    /// Reads the facts that the client wrote into `script`.
     pub(super) fn of(script: &str) -> Setup {
         let after = script.split_once(FIRST_REGISTER).map(|(_, after)| after);
         let upper = after.is_some_and(|after| after.starts_with(&UPPER.to_string()));
@@ -108,7 +108,7 @@ impl Setup {
 }
 
 impl Command {
-    /// Command in the registers from `first` on.
+    /// Parses the command in the registers from `first` on.
     pub(super) fn read(inputs: &Inputs, first: usize) -> Command {
         let registers = (inputs.doubles.get(first..), inputs.integers.get(first..));
         let (
@@ -160,7 +160,7 @@ impl Command {
 }
 
 impl RegisterScript {
-    /// State of a script that has begun.
+    /// Creates the state of a script that has just begun.
     pub(super) fn begun(setup: Setup) -> RegisterScript {
         let mut progress = Progress::default();
         progress.report(false);
@@ -179,7 +179,7 @@ impl RegisterScript {
         self.setup.first
     }
 
-    /// Processes the present command in the registers. Returns the command if it must be executed now; `None` if there is no new command.
+    /// Processes the present command in the registers. Returns the command if it must be executed now; `None` otherwise.
     pub(super) fn take(&mut self, command: Command, is_moving: bool) -> Option<Command> {
         match (self.stage, command) {
             (Stage::Moving, _) => return None,

@@ -17,7 +17,7 @@ const HAS_ERROR: u8 = 0x40;
 const HAS_WARNING: u8 = 0x20;
 const NOT_READY: u8 = 0x10;
 const INVALID: u8 = 0x08;
-/// Length of the answers to the queries of the version and of the serial numbers.
+/// Length of the answers to queries of the version and of the serial numbers, bytes.
 const TEXT_BYTES: usize = 40;
 
 impl Session {

@@ -56,7 +56,7 @@ struct Motion {
     is_only_checked: bool,
 }
 
-/// Reply to a motion.
+/// Reply to a requested motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Taken {
     /// The arm makes the motion, or sets an error or a warning because it cannot.

@@ -9,7 +9,7 @@ pub(super) struct JointMotion {
     /// Target angles or changes of the angles, rad. An infinite value leaves a joint unchanged.
     angles: [f32; 6],
     pub(super) speed_rad_s: f32,
-    /// True if the angles are differences.
+    /// True if the angles are changes relative to the present angles.
     is_relative: bool,
     /// True if the motion is only checked.
     pub(super) is_only_checked: bool,

@@ -35,7 +35,7 @@ const LINKS: [Link; 6] = [
 /// Approximate angles of the joints, rad, with the tool above the gel and pointing down.
 pub(super) const ABOVE: Angles = [0.0, -0.46, -0.36, 0.0, 0.82, 0.0];
 
-/// Placement of the flange for these angles.
+/// Placement of the flange for the joint angles `angles`.
 pub(super) fn flange(angles: Angles) -> Placement {
     let base = Placement {
         at_mm: [0.0; 3],

@@ -138,7 +138,7 @@ fn a_camera_that_stalls_is_a_timeout_and_one_that_goes_and_comes_back_is_started
     frame(&mut sensor).expect("a frame");
 }
 
-/// A server that answers every client with `answer` and keeps the connection open.
+/// Starts a server that answers every client with `answer` and keeps the connection open. Returns its URL.
 fn serving(answer: Vec<u8>) -> String {
     let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
     let port = listener.local_addr().expect("bound").port();

@@ -17,7 +17,7 @@ pub(super) struct Contacts {
 }
 
 impl Contacts {
-    /// Continues the numbering of `table`.
+    /// Continues the numbering of the contacts in `table`.
     pub(super) fn after(table: &Table) -> Contacts {
         let names = table.point_id().iter().flatten();
         let numbers = names.filter_map(|name| name.strip_prefix("hand-")?.parse().ok());

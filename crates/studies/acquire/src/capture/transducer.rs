@@ -144,7 +144,7 @@ struct Habit {
 }
 
 impl Habit {
-    /// Minimum number of changes from which noise is inferred.
+    /// Minimum number of changed readings from which noise is inferred.
     const LEAST: u32 = 10;
 
     fn count(&mut self, is_equal: bool) {

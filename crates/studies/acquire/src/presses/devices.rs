@@ -353,7 +353,7 @@ impl RigSpec {
             .any(|source| source == DriverSource::Simulated)
     }
 
-    /// True if all devices are simulated. Opening simulated devices to read facts has no effect on a real device.
+    /// True if all devices are simulated. Such devices may be opened to read their facts, because this affects no real device.
     pub(crate) fn is_only_simulated(&self, drivers: &Drivers) -> bool {
         self.sources(drivers)
             .all(|source| source == DriverSource::Simulated)

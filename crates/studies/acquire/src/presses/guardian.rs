@@ -41,7 +41,7 @@ const LOOK: Duration = Duration::from_millis(5);
 /// Deadline for each pose.
 const LOOK_DEADLINE: Deadline = Deadline::after(Duration::from_millis(20));
 
-/// Greatest distance of two poses at rest, in standard deviations of an axis.
+/// Greatest distance of two poses of a robot at rest, as a multiple of the noise of a pose.
 const POSE_NOISES: f64 = 5.0;
 
 /// Guarded devices, and the cancellation of their run.

@@ -19,7 +19,8 @@ pub(super) struct Registered {
 }
 
 impl Registered {
-    /// Wraps `robot` with the registration of `registered`. A missing rotation of the tool is read from the robot within `deadline`.
+    /// Wraps `robot` with the registration in `registered`, which places its base frame relative to the sensor. A missing rotation of the tool is
+    /// read from the robot within `deadline`.
     ///
     /// # Errors
     /// [`DriverError`] if the robot reports no pose.

@@ -5,7 +5,7 @@ use std::time::Duration;
 use taceva_core::{DriverError, EnablingSwitch};
 use taceva_drivers::MonotonicClock;
 
-/// Interval between readings.
+/// Interval between readings of the switch.
 const LOOK: Duration = Duration::from_millis(10);
 
 /// Statistics of an enabling switch that is read every 10 ms.

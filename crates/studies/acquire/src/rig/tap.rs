@@ -47,7 +47,7 @@ pub struct RigTap {
     pub force: Latency,
     /// Delay of the sensor relative to the robot that the previous latencies do not correct.
     pub sensor: Latency,
-    /// Latencies for the rig file.
+    /// Latencies to store in the rig file.
     pub latencies: RigLatencies,
     /// Settings of the sensor that were measured during the taps: the drift of its clock, and the standard uncertainty of this drift.
     pub settings: BTreeMap<String, String>,

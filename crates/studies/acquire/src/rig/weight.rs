@@ -37,7 +37,7 @@ static UNITS: [(f64, &str); 4] = [
 pub struct RigWeight {
     /// True if the devices are emulated, as the rig file states.
     pub simulated: bool,
-    /// Comparison to store in the rig file.
+    /// Comparison of the force with the weight, to store in the rig file.
     pub weighing: Weighing,
     /// Change of the force along x, y and z of the sensor, in N.
     pub change_n: [f64; 3],
@@ -83,8 +83,8 @@ pub fn weigh_rig(
     })
 }
 
-/// Compares a weight with its force. Readings last for the time `lasts`, before and after the weight is hung. Returns the comparison and the change along each
-/// axis.
+/// Compares the weight of a mass with the change of force. Readings last for the time `lasts`, before and after the weight is hung. Returns the
+/// comparison and the change along each axis.
 fn weigh(
     force: &mut dyn ForceTransducer,
     operator: &mut dyn Operator,

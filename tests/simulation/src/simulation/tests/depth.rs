@@ -37,7 +37,7 @@ hysteresis = { points = 2, depth_step_mm = 0.4 }
 /// Number of places, each pressed once.
 const PLACES: usize = 100;
 
-/// Difference between the greatest true depth of presses to the limit and this limit, mm.
+/// Greatest true depth of presses to the depth limit, minus this limit, mm.
 fn excess_mm(gel: Gel, depth_from: DepthOrigin) -> f64 {
     let mut plan = planned_scene(SCENE, 1, &gel).expect("a plan");
     plan.contact.depth_from.value = depth_from;

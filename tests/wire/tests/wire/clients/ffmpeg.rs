@@ -1,4 +1,4 @@
-//! ffmpeg as the server of a stream, with the driver as its client.
+//! Tests that the camera driver works with ffmpeg as the server of a stream.
 
 use std::net::TcpListener;
 use std::process::{Child, Command, Stdio};

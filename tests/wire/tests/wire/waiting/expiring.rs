@@ -1,4 +1,4 @@
-//! Expiring motions of every robot that supports them, which end by themselves if the host is silent.
+//! Tests of expiring motions of every robot that supports them. Such a motion ends by itself if the host is silent.
 
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -69,7 +69,7 @@ impl<E> Setup<E> {
         }
     }
 
-    /// A halt stops an expiring motion and latches; motions are accepted once the halt is cleared.
+    /// Tests that a halt stops an expiring motion, and that motions are accepted only once the halt is cleared.
     pub(crate) fn is_halted_while_it_expires(&self) {
         let mut arm = self.open();
         let (home, _) = arm.pose(PATIENCE).expect("a pose");

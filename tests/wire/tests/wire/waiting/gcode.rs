@@ -34,7 +34,7 @@ impl<E: Arm> Setup<E> {
         assert!(!truth.is_moving && truth.tip_mm[2] < -5.5, "{truth:?}");
     }
 
-    /// A line in use by another program, or by another part of this one, is rejected as busy, and is free again afterwards.
+    /// Tests that a serial line in use, by another program or by this one, is rejected as busy. The line is free again afterwards.
     pub(crate) fn is_busy_while_another_has_it(&self) {
         let first = self.open();
         let second = self.try_open().map(drop).expect_err("it is taken");
@@ -64,7 +64,7 @@ impl<E: Arm> Setup<E> {
         assert!(self.open().warnings().is_empty());
     }
 
-    /// A path that is not a serial line is rejected with the matching error.
+    /// Tests that a path that is not a serial line is rejected with the matching error.
     pub(crate) fn refuses_what_is_no_line(&self) {
         let file = tempfile::NamedTempFile::new().expect("a file");
         let path = file.path().display();

@@ -124,7 +124,7 @@ fn bytes_of_others_and_absurd_lengths_are_typed_errors_and_readings_follow_them(
 }
 
 impl<E: Arm> Setup<E> {
-    /// A motion arrives although its reports are split and merged.
+    /// Tests that a motion arrives although its reports are split and merged.
     fn arrives_in_pieces_and_heaps(&self) {
         let mut arm = self.open();
         let (home, _) = arm.pose(PATIENCE).expect("a pose");

@@ -55,7 +55,7 @@ impl<E> Setup<E> {
         self.try_open().expect("a robot")
     }
 
-    /// The driver passes the suite of all robots.
+    /// Tests that the driver passes the suite of all robots.
     pub(crate) fn passes_the_suite(&self) {
         let trial = Trial::with_arguments(self.arguments.clone());
         let report = conformance::robot(&*self.factory, &trial);

@@ -198,7 +198,8 @@ impl HaltFollower {
         })
     }
 
-    /// Time from the decision to halt until the previous report, s, if the tip has not moved since that report; `None` otherwise.
+    /// Time from the decision to halt until the tip rested, s. This is the time of the previous report, if the tip has not moved since; `None`
+    /// otherwise.
     fn rest_s(&mut self, pose: &Pose, valid_s: f64, decided_s: f64) -> Option<f64> {
         if let Some((seen, seen_s)) = self.seen {
             if valid_s <= seen_s {

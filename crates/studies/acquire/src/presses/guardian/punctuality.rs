@@ -100,7 +100,7 @@ impl<'a> Punctuality<'a> {
 mod tests {
     use super::*;
 
-    /// Progress that keeps its remarks.
+    /// Test observer that stores remarks.
     #[derive(Default)]
     struct Remarks(Mutex<Vec<String>>);
 

@@ -17,7 +17,7 @@ impl ProcessorQueue {
         Some(self.times()?.queued_s)
     }
 
-    /// Times since the start of the thread; `None` if the system does not state them.
+    /// Times of the thread since its start; `None` if the system does not state them.
     pub(super) fn times(&self) -> Option<ThreadTimes> {
         let mut file = self.0.as_ref()?;
         let mut bytes = [0; 128];

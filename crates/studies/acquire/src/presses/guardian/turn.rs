@@ -95,7 +95,7 @@ impl TurnTimer {
         self.awake_s = MonotonicClock.now_s();
     }
 
-    /// Ends the turn.
+    /// Ends the turn, and returns its times.
     pub(super) fn end(&mut self) -> Turn {
         let ended_s = MonotonicClock.now_s();
         let queued_s = self.queue.waited_s();

@@ -12,7 +12,7 @@ use crate::waiting::gate::{Gate, halted_while_shut};
 use crate::waiting::setup::Setup;
 use crate::waiting::support::{PATIENCE, lower, speed};
 
-/// An arm, a gate in front of it, and the driver.
+/// Starts an emulated arm behind a gate that can hold connections. Returns both, and the opened driver.
 fn behind_a_gate(holds: fn(usize) -> bool) -> (Setup<Emulator>, Arc<Gate>, Box<dyn Robot>) {
     let setup = setup(Ports::ANY);
     let address = setup.emulator.address(Port::Command);

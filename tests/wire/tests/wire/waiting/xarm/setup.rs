@@ -5,7 +5,7 @@ use taceva_wire::xarm::{Emulator, Port, Ports};
 
 use crate::waiting::setup::Setup;
 
-/// An arm over a quiet gel.
+/// Starts an emulated arm over a gel without noise, on the ports `ports`.
 pub(crate) fn setup(ports: Ports) -> Setup<Emulator> {
     let factory = XarmFactory::new().expect("a factory");
     Setup::with_arguments(factory, |bench| Emulator::start(bench, ports), arguments)
