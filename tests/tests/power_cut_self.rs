@@ -1,4 +1,4 @@
-//! Tests that the search for states after a power cut finds every planted bug and no other.
+//! Tests that the search for states after a power cut finds every planted bug and reports no other.
 
 use std::process::Command;
 

@@ -15,7 +15,7 @@ const KILLS: usize = 60;
 /// each in one study.
 const CUTS: usize = 40;
 const STATES: usize = 8;
-/// Number of kills among which one hits a run that resumes after a kill.
+/// One kill among this number hits a run that resumes after an earlier kill.
 const RESUMED: usize = 5;
 
 /// Short scene with pictures, forces, two units, another light and a board.

@@ -136,7 +136,7 @@ impl Played {
         self.stopped_ms.get(middle).copied().unwrap_or_default()
     }
 
-    /// 99.9 % quantile of the times for which the robot moved during a fault, ms: the greatest of fewer than 1000 times. 0 without faults.
+    /// 99.9 % quantile of the times for which the robot moved during a fault, ms. Of fewer than 1000 times, it is the greatest; 0 without faults.
     pub fn most_but_one_in_1000_ms(&self) -> f64 {
         let over = self.stopped_ms.len() / 1000;
         let quantile = self.stopped_ms.iter().rev().nth(over);
@@ -184,7 +184,7 @@ fn scene(presses: usize) -> String {
     changed
 }
 
-/// Injects the fault of `case` a number of `times`, at moments drawn from `seed`.
+/// Injects the fault of `case` as often as `times` states, at moments drawn from `seed`.
 ///
 /// # Panics
 /// If the devices or the program cannot be started, which ends the test.

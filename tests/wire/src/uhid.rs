@@ -61,8 +61,8 @@ pub const PEDAL: Identity = Identity {
     ],
 };
 
-/// Number of the event of `/dev/uhid` that creates a device. [`INPUT`] is the event of a report. The other constants are sizes in bytes, from
-/// `linux/uhid.h`.
+/// Number of the event of `/dev/uhid` that creates a device; [`INPUT`] is the event of a report. The others are text sizes, bytes, and the bus number
+/// of USB (`linux/uhid.h`).
 const CREATE: u32 = 11;
 const INPUT: u32 = 12;
 const NAME: usize = 128;

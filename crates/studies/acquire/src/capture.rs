@@ -85,7 +85,7 @@ impl<'a> Onlookers<'a> {
 pub enum CaptureStage {
     /// Measurement of the force zero and of the frame without contact. Nothing may touch the gel.
     Zeroing,
-    /// Frames are being recorded. The field is the progress.
+    /// Frames are being recorded. The value is the progress so far.
     Recording(CaptureState),
 }
 

@@ -183,7 +183,8 @@ impl SimulatedForce {
         SimulatedForce { shared, taken: 0 }
     }
 
-    /// Returns the newest reading of the reader thread, for a run with monitoring threads. Waits for a reading at most `deadline_s`, s; then `None`.
+    /// Returns the newest reading of the reader thread, for a run with monitoring threads. Waits at most `deadline_s`, s; `None` if no new reading
+    /// arrives.
     fn take(&mut self, deadline_s: f64) -> Option<(Wrench, Stamp)> {
         let began_s = self.shared.world().now_s;
         let until_s = began_s + deadline_s;

@@ -274,7 +274,7 @@ impl Faults {
     }
 }
 
-/// Draws faults of the enabling switch. Each release lasts from 0.01 s to 40 s, with a uniform logarithm. Once, the switch may be unplugged.
+/// Draws faults of the enabling switch. Each release lasts from 0.01 s to 40 s, with a uniform logarithm. The switch may also be unplugged once.
 fn of_switch(draws: Draws, span_s: f64) -> impl Iterator<Item = Fault> {
     let releases = match draws.between(0, 1, [SWITCH, 0]) {
         0 => 0,

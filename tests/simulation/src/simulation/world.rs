@@ -33,7 +33,7 @@ struct Motion {
 }
 
 impl Motion {
-    /// Position of the tip at `at_s`, s, in mm: on the way, the start before the motion, or the target after it.
+    /// Position of the tip at the time `at_s`, s, in mm. Before the motion, it is the start; after the motion, the target.
     fn tip_at(&self, at_s: f64) -> [f64; 3] {
         if at_s >= self.end_s {
             return self.to;

@@ -64,8 +64,8 @@ impl Transducer {
         self.facts.rate.map_or(UNKNOWN_S, |rate| 1.0 / rate.0)
     }
 
-    /// Adds readings to `track` until the capture ends. Skips a repeated reading: one with an old sequence number, or an equal value although noise
-    /// or a hand changes the load.
+    /// Adds readings to `track` until the capture ends. Skips a repeated reading. It has the last sequence number, or an equal value although noise
+    /// or a pressing hand would have changed the value.
     ///
     /// # Errors
     /// The error that ended the stream of readings: a lost device, a timeout, or a frozen signal.

@@ -1,8 +1,8 @@
 //! Follows the clock of a camera against the clock of this machine, and removes its drift from the time stamps.
 //!
 //! The offset of a frame is the time from its stamp to its arrival. Delays only increase the offset, so only the least offset in each block of frames
-//! is used. The slope of a line through these least offsets is the drift. The median of all pairwise slopes (Theil 1950, Sen 1968), weighted by their
-//! times, is not affected by blocks in which every frame was delayed.
+//! is used. The slope of a line through these least offsets gives the drift. The median of all pairwise slopes (Theil 1950, Sen 1968), weighted by
+//! their times, is not affected by blocks in which every frame was delayed.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ const BLOCK_MAX_S: f64 = 4.0;
 /// Minimum number of frames in a block. They must arrive within [`FRAMES_WITHIN_S`], s.
 const FRAMES: u32 = 4;
 const FRAMES_WITHIN_S: f64 = 30.0;
-/// Minimum number of blocks for a line; the maximum is [`BLOCKS_MAX`]. A drift is corrected from [`FOLLOWED_MIN`] blocks.
+/// Minimum number of blocks for a line; the maximum is [`BLOCKS_MAX`]. A drift is only corrected with at least [`FOLLOWED_MIN`] blocks.
 const BLOCKS_MIN: usize = 6;
 const BLOCKS_MAX: usize = 64;
 const FOLLOWED_MIN: usize = 12;

@@ -38,8 +38,7 @@ pub struct RigTap {
     pub taps: usize,
     /// Reason for each other tap: a device does not show clearly when contact began or ended. At most a quarter of all taps are dropped.
     pub dropped: Vec<String>,
-    /// Number of dropped taps in which a device was delayed more than usual. They would increase the measured latency, and are at most a fifth of all
-    /// taps.
+    /// Number of dropped taps in which a signal still changed long after the tip rested. At most a fifth of all taps are dropped as late.
     pub late: usize,
     /// Previous latencies of robot, transducer and sensor, in ms, from the rig file, or otherwise from the drivers.
     pub before_ms: [f64; 3],

@@ -1,4 +1,4 @@
-//! `rig check --weight`: compares the change of force after hanging a known mass on the transducer with the weight of this mass.
+//! `rig check --weight`: the operator hangs a known mass on the transducer. The program compares the change of force with the weight of the mass.
 
 use std::time::Duration;
 

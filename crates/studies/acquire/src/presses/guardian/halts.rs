@@ -198,8 +198,7 @@ impl HaltFollower {
         })
     }
 
-    /// Time from the decision to halt until the tip rested, s. This is the time of the previous report, if the tip has not moved since; `None`
-    /// otherwise.
+    /// Time from the decision to halt until the tip rested, s: the time of the previous report, if the tip has not moved since. `None` otherwise.
     fn rest_s(&mut self, pose: &Pose, valid_s: f64, decided_s: f64) -> Option<f64> {
         if let Some((seen, seen_s)) = self.seen {
             if valid_s <= seen_s {

@@ -65,7 +65,7 @@ pub(super) fn policy() -> &'static str {
     policy_of(&stat)
 }
 
-/// Scheduling policy in `stat`, the text of `/proc/…/stat`. The thread's name, in parentheses, may have blanks.
+/// Scheduling policy in `stat`, the text of `/proc/thread-self/stat`. The thread's name, in parentheses, may have blanks.
 fn policy_of(stat: &str) -> &'static str {
     /// Numbers of fields in `stat`, counted from 1: `FIELD` contains the policy, and `FIRST` follows the name of the thread.
     const FIELD: usize = 41;
