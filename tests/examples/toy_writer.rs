@@ -1,4 +1,4 @@
-//! Runs one of the toy protocols: `toy_writer PROTOCOL`, in the current folder. Prints `ACK n` when it claims that record n is durable.
+//! Runs one of the toy protocols: `toy_writer PROTOCOL`, in the current folder. Prints `ACK n` when the protocol states that record n is durable.
 #![expect(clippy::print_stdout, reason = "the power-cut test reads the output")]
 
 use std::fs::{File, OpenOptions};

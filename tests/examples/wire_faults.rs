@@ -3,8 +3,8 @@
 //!
 //! `wire_faults TIMES kill` kills one study TIMES times instead.
 //!
-//! Exits with 1 if any outcome was forbidden, an arm moved on for longer than allowed, or more than one halt in 1000 was late. Printed times
-//! depend on this machine and its load, which each row states.
+//! Exits with 1 if an outcome was forbidden, a robot moved too long after a fault, or more than one halt in 1000 was late. Printed times depend on
+//! the machine and its load. Each row states the load.
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
 
 use std::error::Error;
@@ -88,7 +88,7 @@ fn played(case: &Case, times: usize) -> bool {
     result.broken.is_empty()
 }
 
-/// Counts of the kernel, the program, a device, and of unknown causes.
+/// Counts of late events by their cause: the kernel, the program, a device, or unknown.
 fn by_cause(late: &LateCounts) -> String {
     let LateCounts {
         kernel,

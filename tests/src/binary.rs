@@ -9,7 +9,7 @@ use cargo_metadata::Message;
 
 use crate::workspace::root;
 
-/// The built command line program.
+/// Builds the command line program and returns its path.
 ///
 /// # Panics
 /// If the build fails, which ends the test.
@@ -17,7 +17,7 @@ pub fn taceva() -> PathBuf {
     built(&["--bin", "taceva"], "taceva")
 }
 
-/// The built example `name` of any crate.
+/// Builds the example `name` of any crate and returns its path.
 ///
 /// # Panics
 /// If the build fails, which ends the test.
@@ -25,7 +25,7 @@ pub fn example(name: &str) -> PathBuf {
     built(&["--example", name], name)
 }
 
-/// The built shared library of the crate `package`.
+/// Builds the shared library of the crate `package` and returns its path.
 ///
 /// # Panics
 /// If the build fails, which ends the test.

@@ -1,4 +1,4 @@
-//! A laboratory's folder to import, with drawn or given pictures.
+//! Test folder to import, as a laboratory would have it: pictures, a table of labels, and a map file.
 
 use std::path::{Path, PathBuf};
 
@@ -11,9 +11,9 @@ use crate::random::Random;
 /// Format of a picture file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// Lossless, with a checksum of every part.
+    /// PNG: lossless, with a checksum of every part.
     Png,
-    /// Lossy, without a checksum.
+    /// JPEG: lossy, without a checksum.
     Jpeg,
 }
 
@@ -27,7 +27,7 @@ impl Form {
     }
 }
 
-/// File of a gray picture of 48×36 pixels: a slope with noise, so that all pictures differ and no pixel is predictable.
+/// Image file of a gray picture of 48×36 pixels: a brightness ramp with noise. Pictures with different `number` differ, and no pixel is predictable.
 ///
 /// # Panics
 /// If the encoder fails, which ends the test.
@@ -54,14 +54,14 @@ pub fn picture(form: Form, number: u32) -> Vec<u8> {
     file
 }
 
-/// A folder of pictures, a table of labels and a map for them.
+/// A folder with pictures, a table of labels, and a map file that describes their import.
 #[derive(Debug)]
 pub struct Lab {
     folder: tempfile::TempDir,
 }
 
 impl Lab {
-    /// A folder in which row `n` of the table names picture `n` of `pictures`, with colours stored in `order`.
+    /// Creates a folder in which row `n` of the table names picture `n` of `pictures`. The map file states `order` as their order of colours.
     ///
     /// # Panics
     /// If the folder cannot be written, which ends the test.
@@ -69,7 +69,7 @@ impl Lab {
         Lab::numbered(form, order, pictures, 0)
     }
 
-    /// A folder with `count` drawn gray pictures, numbered from `first` on.
+    /// Creates a folder with `count` drawn gray pictures, numbered from `first` on.
     ///
     /// # Panics
     /// If the folder cannot be written, which ends the test.
@@ -98,7 +98,7 @@ impl Lab {
         Lab { folder }
     }
 
-    /// A folder with `count` drawn gray pictures.
+    /// Creates a folder with `count` drawn gray pictures.
     pub fn drawn(form: Form, count: u32) -> Lab {
         let pictures: Vec<Vec<u8>> = (0..count).map(|number| picture(form, number)).collect();
         Lab::new(form, "gray", &pictures)
@@ -109,7 +109,7 @@ impl Lab {
         self.folder.path()
     }
 
-    /// Path of its map.
+    /// Path of the map file.
     pub fn map(&self) -> PathBuf {
         self.path().join("map.toml")
     }

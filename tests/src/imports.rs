@@ -1,5 +1,4 @@
-//! Imports between the source files of a crate, with modules as files. `use` declarations and paths are followed to the declaration of a
-//! name.
+//! Imports between the source files of a crate. Each `use` declaration and path is followed to the file that declares the name.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -13,7 +12,7 @@ type Module = Vec<String>;
 /// Files of one crate, with the imports of each. A file is named by the path of its module, such as `stats/holm`; the root is `lib`.
 pub type Graph = BTreeMap<String, BTreeSet<String>>;
 
-/// The imports of a file, and its other code.
+/// Imports of a file, and the rest of its code.
 struct Source {
     /// Imported names, each with its path, and true if it is re-exported.
     imports: Vec<(String, Vec<String>, bool)>,
@@ -21,8 +20,8 @@ struct Source {
     body: String,
 }
 
-/// Imports between the files below `src`. Excluded are unit tests, names that a parent only re-exports from its children, and names that a child takes from its
-/// parent: both belong to one folder, whose parent declares shared names.
+/// Imports between the files below `src`. Unit tests are excluded. Imports between a module and its parent are also excluded: names that the parent
+/// only re-exports, and names that a child takes from its parent.
 ///
 /// # Panics
 /// If a file cannot be read, which ends the test.
@@ -168,7 +167,7 @@ impl Source {
     }
 }
 
-/// Paths of the tree of a `use` declaration without spaces.
+/// Full paths that `tree` imports. `tree` is the part of a `use` declaration after `use`, without spaces.
 fn expanded(tree: &str) -> Vec<String> {
     let Some(open) = tree.find('{') else {
         return vec![tree.to_owned()];
@@ -208,7 +207,7 @@ fn paths(body: &str) -> BTreeSet<Vec<String>> {
     words.filter(|path: &Vec<String>| path.len() > 1).collect()
 }
 
-/// Cycles of a graph with at least `least` files: files that import each other, directly or through others.
+/// Groups of at least `least` files in which every file imports every other, directly or through others.
 pub fn circles(graph: &Graph, least: usize) -> Vec<BTreeSet<String>> {
     let reached: BTreeMap<&str, BTreeSet<&str>> = graph
         .keys()

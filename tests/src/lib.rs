@@ -1,4 +1,4 @@
-//! Shared helpers of the cross-crate tests: the workspace as data, its built programs, real recordings if present, and simulated power cuts
+//! Shared helpers of the cross-crate tests: the structure of the workspace, its built programs, real recordings if present, and simulated power cuts
 //! of a program.
 
 mod binary;

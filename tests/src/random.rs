@@ -2,12 +2,12 @@
 
 use taceva_core::random::{SplitMix64, scaled};
 
-/// The generator SplitMix64, to choose moments and bits.
+/// Generator SplitMix64 of random numbers, for example to choose when to kill a program and which bit to flip.
 #[derive(Clone, Debug)]
 pub struct Random(SplitMix64);
 
 impl Random {
-    /// The generator of `seed`.
+    /// Creates the generator with the seed `seed`.
     pub fn new(seed: u64) -> Random {
         Random(SplitMix64::new(seed))
     }
@@ -17,7 +17,7 @@ impl Random {
         self.0.next_u64()
     }
 
-    /// Number below `end`; 0 if `end` is 0.
+    /// Random number from 0 to below `end`; 0 if `end` is 0.
     pub fn below(&mut self, end: usize) -> usize {
         usize::try_from(scaled(self.bits(), end as u64)).expect("below a usize")
     }

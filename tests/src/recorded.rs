@@ -1,4 +1,4 @@
-//! Recorder as a program that is started, interrupted and restarted, and checks of its recordings.
+//! Runs the recorder as a separate program that tests interrupt and restart, and checks its recordings.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use taceva_dataset::{Dataset, DatasetError, Digest, Pass, Recorder};
 use crate::binary::example;
 use crate::drawn::scratch;
 
-/// The recorder and the digests of its recordings: sample `n` is the same in every recording.
+/// Program that records, and digests of its uninterrupted recordings. Sample `n` is the same in every recording.
 #[derive(Debug)]
 pub struct Recorded {
     program: PathBuf,
@@ -36,7 +36,7 @@ impl Recorded {
         self.digests.len() - 1
     }
 
-    /// Command that records everything in a new folder at `target`, or resumes there.
+    /// Command that records all samples in a new folder at `target`, or resumes an interrupted recording there.
     pub fn command(&self, target: &Path) -> Command {
         let mut command = Command::new(&self.program);
         command.arg(target).arg(self.most().to_string());

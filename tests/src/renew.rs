@@ -8,10 +8,10 @@
 //! <!-- end -->
 //! ```
 //!
-//! `bash` runs the command in the workspace folder, and its standard output is the passage. `$OUT` is an empty folder that the commands of
-//! one document share, in order. `from, slow:` marks a command that takes too long for a test. `from, times:` marks one whose output
-//! varies, and `from, data:` one that reads the recordings of `TACEVA_DATA`. These three kinds are renewed, and `renew --check` compares them if
-//! possible. A handwritten table of numbers is preceded by its reason: `<!-- by hand: … -->`.
+//! `bash` runs the command in the workspace folder, and its standard output is the passage. `$OUT` is an empty folder that the commands of one
+//! document share, in order. `from, slow:` marks a command that takes too long for a test. `from, times:` marks a command whose output varies. `from,
+//! data:` marks a command that reads the recordings of `TACEVA_DATA`. `renew` writes all kinds again, and `renew --check` compares them if possible.
+//! A handwritten table of numbers is preceded by its reason: `<!-- by hand: … -->`.
 
 mod documents;
 mod mark;

@@ -54,7 +54,7 @@ pub fn without_text(code: &str) -> String {
     left
 }
 
-/// Length in bytes of the comment, string or character literal at the start of `code`, after the letter `before`.
+/// Length in bytes of the comment, string or character literal at the start of `code`. The character `before` precedes it.
 fn length_of_text(code: &str, before: Option<char>) -> usize {
     if code.starts_with("//") {
         return code.find('\n').unwrap_or(code.len());
@@ -85,7 +85,7 @@ fn length_of_text(code: &str, before: Option<char>) -> usize {
     }
 }
 
-/// End of the text that begins with `mark`.
+/// Byte position after the string or character literal at the start of `code`, which the quote `mark` encloses; `None` if it has no end.
 fn end_of_quote(code: &str, mark: char) -> Option<usize> {
     let mut is_escaped = false;
     for (at, letter) in code.char_indices().skip(1) {

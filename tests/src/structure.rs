@@ -1,5 +1,5 @@
-//! Structure figures of the workspace: lines, module cycles, tuple parameters, copies, doc comments, file names, and the number of files
-//! per feature and of crates per package.
+//! Structure figures of the workspace: lines, module cycles, tuple parameters, copies, doc comments, file names, files that mention one feature, and
+//! crates that one package needs.
 //!
 //! `cargo run -p taceva-tests --bin structure` prints these figures; tests limit figures that must not grow.
 

@@ -1,23 +1,23 @@
-//! Small writers, some with planted bugs, which the search for power-cut states must find.
+//! Small programs that write files, to test the search for states after a power cut. Some have planted bugs, which the search must find.
 
 use std::fmt;
 
-/// Protocol that makes bytes durable.
+/// Method by which a toy program makes its bytes durable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Protocol {
-    /// Overwrites the old file. Wrong: a cut may leave neither old nor new content.
+    /// Overwrites the old file. Wrong, because a cut may leave content that is neither the old nor the new.
     Overwrite,
-    /// Writes a second file and renames it. Wrong: the name may be durable before the bytes.
+    /// Writes a second file and renames it. Wrong, because the name may be durable before the bytes.
     Rename,
-    /// Syncs the bytes first. Wrong: the name is not durable when success is claimed.
+    /// Like `Rename`, but first syncs the bytes. Wrong, because the name is not durable when success is printed.
     RenameSynced,
-    /// Also syncs the folder. Correct.
+    /// Like `RenameSynced`, but also syncs the folder. Correct.
     RenameSyncedFolder,
-    /// Appends records with length and checksum, each durable before it is claimed. Correct.
+    /// Appends records with length and checksum. Each record is durable before success is printed. Correct.
     Journal,
-    /// Like `Journal`, but claims each record before it is durable. Wrong.
+    /// Like `Journal`, but prints success before the record is durable. Wrong.
     JournalUnsynced,
-    /// Appends bare payloads. Wrong: a torn payload looks like data.
+    /// Appends payloads without length and checksum. Wrong, because a torn payload looks like data.
     JournalUnframed,
 }
 
@@ -33,7 +33,7 @@ impl Protocol {
         Protocol::JournalUnframed,
     ];
 
-    /// True if the protocol keeps its promise.
+    /// True if the data of a printed success always survives a power cut.
     pub fn is_right(self) -> bool {
         matches!(self, Protocol::RenameSyncedFolder | Protocol::Journal)
     }

@@ -29,7 +29,7 @@ pub struct OnTheWire {
 const RIG: &str = "rig.toml";
 /// The name of the scene.
 const SCENE: &str = "wire.toml";
-/// The folder of a run on the wire.
+/// Name of the folder in which a study with the emulated devices runs.
 pub const RUN: &str = "wire";
 
 /// Scene `examples/scenes/wire.toml` with `presses` presses to one depth each, and a model that fits quickly.
@@ -76,7 +76,7 @@ impl OnTheWire {
         command
     }
 
-    /// Command of taps on the emulated devices, with the rig file.
+    /// Command that taps the gel with the emulated devices, as the rig file describes them.
     pub fn taps(&self) -> Command {
         let mut command = Command::new(taceva());
         command
@@ -86,7 +86,7 @@ impl OnTheWire {
         command
     }
 
-    /// Command of the same study on the bench simulated in the program, in the folder `simulated`.
+    /// Command that runs the same study on the simulated bench of the program, in the folder `simulated`.
     pub fn simulated(&self) -> Command {
         self.command("simulated")
     }
@@ -166,7 +166,7 @@ impl UnderWay {
         self.0.wait().expect("a child that was started here");
     }
 
-    /// Waits for the end. Returns true for success, and the output.
+    /// Waits for the study to end. Returns true if it succeeded, and its output.
     ///
     /// # Panics
     /// If the output cannot be read, which ends the test.

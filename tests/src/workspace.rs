@@ -1,10 +1,10 @@
-//! Workspace as files, and as cargo describes it.
+//! Files of the workspace, and its description by cargo.
 
 use std::path::{Path, PathBuf};
 
 use cargo_metadata::{Metadata, MetadataCommand};
 
-/// The folder of the workspace.
+/// Path of the workspace folder.
 pub fn root() -> PathBuf {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     here.parent()
@@ -12,7 +12,7 @@ pub fn root() -> PathBuf {
         .to_owned()
 }
 
-/// A text file of the workspace.
+/// Reads the text file at `relative` in the workspace.
 ///
 /// # Panics
 /// If the file cannot be read, which ends the test.

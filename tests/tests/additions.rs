@@ -1,12 +1,12 @@
-//! The lists of files under "Adding…" in `CONTRIBUTING.md` name existing files, and every file that names an example.
+//! Tests that `CONTRIBUTING.md` lists, under "Adding…", only existing files, and every file that mentions an example of the addition.
 
 use taceva_tests::structure::{EXAMPLES, mentions};
 use taceva_tests::{read, root};
 
-/// Words of the lists that stand for a name.
+/// Placeholders in the listed paths, each for a name.
 const PLACEHOLDERS: [&str; 3] = ["NAME", "MAKER", "DEVICE"];
 
-/// Section of an addition with an example among [`EXAMPLES`].
+/// Section of `CONTRIBUTING.md` about one kind of addition, with the names of an example.
 struct Section {
     heading: &'static str,
     kind: &'static str,
@@ -42,7 +42,7 @@ const SECTIONS: [Section; 5] = [
     },
 ];
 
-/// Paths below the heading, or below all headings of "Adding…".
+/// Paths in the section with the given heading, or in all sections of "Adding…".
 fn paths(heading: Option<&str>) -> Vec<String> {
     let text = read("CONTRIBUTING.md");
     let (_, adding) = text.split_once("\n## Adding…\n").expect("the part exists");

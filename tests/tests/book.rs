@@ -1,4 +1,4 @@
-//! Pages of `docs/` form a book: its summary names each page once, and links lead to files.
+//! Tests that the pages of `docs/` form a book: its summary names each page once, and links lead to files.
 
 use std::fs;
 

@@ -9,7 +9,7 @@ use taceva_tests::metadata;
 /// Least number of files in a rejected cycle.
 const LEAST: usize = 3;
 
-/// Accepted cycles: package, one of the files, most files, and the reason.
+/// Accepted cycles: package, one of the files, maximum number of files, and the reason.
 const KNOWN: &[(&str, &str, usize, &str)] = &[
     (
         "taceva-metrics",

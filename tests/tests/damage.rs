@@ -1,4 +1,4 @@
-//! Truncated pictures and pictures with flipped bits: no frame of a dataset is accepted with other pixels.
+//! Tests that no frame of a dataset is accepted with other pixels after its picture was truncated or had a bit flipped.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -41,15 +41,15 @@ fn import(lab: &Lab, target: &Path) -> Result<Dataset, ImportError> {
 /// Counts of damaged copies.
 #[derive(Debug, Default)]
 struct Counts {
-    /// Damaged copies in a dataset.
+    /// Number of damaged copies of a stored frame.
     copies: usize,
     /// Number of rejected copies.
     refused: usize,
-    /// Truncations at import.
+    /// Number of truncated pictures that were imported.
     truncations: usize,
     /// Number of rejected truncations.
     truncations_refused: usize,
-    /// Flips at import.
+    /// Number of pictures with a flipped bit that were imported.
     flips: usize,
     /// Number of rejected flips.
     flips_refused: usize,
@@ -132,7 +132,7 @@ fn a_drawn_jpeg_damaged_anywhere_is_refused_in_a_dataset_and_cut_short_at_import
     assert_refused("drawn JPEG", &damage_drawn(Form::Jpeg));
 }
 
-/// Truncates at every seventh byte and flips a bit in every eleventh.
+/// Damages a drawn picture: truncates it at every seventh byte, and flips a bit in every eleventh byte.
 fn damage_drawn(form: Form) -> Counts {
     let bytes = picture(form, 3);
     let truncations = (0..bytes.len()).step_by(7).map(Damage::Truncated);
@@ -168,7 +168,7 @@ fn real_pngs_damaged_on_disk_are_refused() {
     );
 }
 
-/// Damages each picture three times: two truncations and a flip.
+/// Damages each picture of `recordings` three times: two truncations and one flipped bit.
 fn damage_real(form: Form, recordings: &[(&str, &str, usize)]) {
     let mut counts = Counts::default();
     let mut random = Random::new(SEED);

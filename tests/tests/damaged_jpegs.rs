@@ -1,5 +1,5 @@
-//! Damaged JPEGs: truncated, closed after a truncation, with bytes removed or changed. Pictures with a libjpeg warning are rejected, and no
-//! intact one is.
+//! Tests of damaged JPEGs: truncated, closed after a truncation, with bytes removed or changed. Pictures about which libjpeg warns are rejected. No
+//! intact picture is rejected.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use taceva_tests::{Form, Lab, Random, recording, root, scratch};
 const SEED: u64 = 20_261_123;
 /// Number of pictures for each kind of damage.
 const DAMAGED: usize = 100;
-/// Number of real pictures, besides the drawn ones.
+/// Number of real pictures to damage, in addition to the drawn ones.
 const REAL: usize = 20;
 const END: [u8; 2] = [0xFF, 0xD9];
 
@@ -56,7 +56,7 @@ impl Damage {
     }
 }
 
-/// Offsets of the first scan's data and of the end marker.
+/// Offsets of the first compressed byte and of the end marker in a JPEG.
 fn entropy_coded(whole: &[u8]) -> (usize, usize) {
     let scan = whole.windows(2).position(|pair| pair == [0xFF, 0xDA]);
     let scan = scan.expect("a scan");
@@ -93,7 +93,7 @@ fn jpegs_below(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Imports a picture as the only one of a folder.
+/// Imports a folder whose only picture has the content `bytes`.
 fn import(bytes: &[u8]) -> Result<(), ImportError> {
     let is_gray = |bytes: &[u8]| {
         let frame = bytes
@@ -114,7 +114,7 @@ fn import(bytes: &[u8]) -> Result<(), ImportError> {
         .map(drop)
 }
 
-/// True if libjpeg's own program warns about a picture; `None` if it is not installed.
+/// True if the program `djpeg` of libjpeg warns about a picture; `None` if it is not installed.
 fn libjpeg_warns(bytes: &[u8], folder: &Path) -> Option<bool> {
     let path = folder.join("picture.jpg");
     std::fs::write(&path, bytes).expect("room for a picture");

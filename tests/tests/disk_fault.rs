@@ -1,5 +1,5 @@
-//! The disk fails at the n-th call that makes data durable, once or from then on. No success is reported, no acknowledged data is lost, and
-//! a working disk completes the work.
+//! Tests of a disk that fails at the n-th call that makes data durable, or from that call on. No success is reported, no acknowledged data is lost,
+//! and a working disk completes the work.
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -19,12 +19,12 @@ const FAULTS: [(&str, &str); 4] = [
     ("ftruncate,fallocate", "EIO"),
 ];
 
-/// Failing calls.
+/// Calls that fail, by their number n.
 #[derive(Clone, Copy, Debug)]
 enum When {
-    /// Only the n-th.
+    /// Only the n-th call fails.
     Once(usize),
-    /// The n-th and all later ones.
+    /// The n-th and all later calls fail.
     From(usize),
 }
 

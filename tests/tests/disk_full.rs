@@ -1,4 +1,4 @@
-//! Full disk at every stage: the error says so, no partial file remains, and the work continues once there is space.
+//! Tests of a full disk at every stage. The error states this, no partial file remains, and the work continues once there is space.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -129,9 +129,9 @@ fn highest_acknowledged(said: &str) -> usize {
 
 /// Results of a command on a disk that is too small, and again with enough space.
 struct TwoRuns {
-    /// Exit code, standard output and error of both.
+    /// Exit code, standard output and standard error of the first and the second run.
     runs: [(i32, String, String); 2],
-    /// Names on the disk after the first run.
+    /// Names of the files on the disk after the first run.
     left: String,
     /// Copy of the target after the second run.
     copied: tempfile::TempDir,

@@ -21,7 +21,8 @@ fn cargo() -> Command {
     Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
-/// Packs the crates and unpacks them below `folder`, as a registry would deliver them. Returns the folder of each.
+/// Packs the crates that the example needs, and unpacks them below `folder`, as a registry would deliver them. Returns the name and the folder of
+/// each.
 fn unpacked(folder: &Path) -> Vec<(&'static str, PathBuf)> {
     let built = folder.join("packed");
     let mut package = cargo();

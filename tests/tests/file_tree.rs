@@ -1,11 +1,11 @@
-//! The root of the workspace lists its main crates, and things are found by the names of their files.
+//! Tests that the root of the workspace contains only the listed files and folders, and that features are found by the names of their files.
 
 use std::path::Path;
 use std::process::Command;
 
 use taceva_tests::root;
 
-/// Main crates, for which the root is a card.
+/// Folders of the main crates at the root.
 const CARD: [&str; 7] = [
     "plugins",
     "taceva-cli",
@@ -40,7 +40,7 @@ const FILES: [&str; 15] = [
     "rustfmt.toml",
 ];
 
-/// Things that a reader looks for: each with its word, and the file whose name contains this word.
+/// Features that a reader looks for: name, word to search for, and the file whose name contains this word.
 const THINGS: [(&str, &str, &str); 12] = [
     ("halt", "halt", "taceva-core/src/driver/halt.rs"),
     (

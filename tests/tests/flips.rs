@@ -1,6 +1,7 @@
-//! Single bit flips in datasets, models, states, results, caches, and folders of runs and sweeps: the output is unchanged, or an error
-//! names the file. `TACEVA_FLIPS=1000 cargo test --release -p taceva-tests --test tests flips:: -- --nocapture` sets the total number of
-//! flips.
+//! Tests of single bit flips in datasets, models, states, results, caches, and folders of runs and sweeps. The output must be unchanged, or an error
+//! must name the file.
+//!
+//! `TACEVA_FLIPS=1000 cargo test --release -p taceva-tests --test tests flips:: -- --nocapture` sets the total number of flips.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -9,7 +10,7 @@ use std::process::Command;
 use taceva_tests::{Form, Lab, Random, scratch, taceva};
 
 const SEED: u64 = 20_261_124;
-/// Default total number of flips, over all kinds.
+/// Default total number of flips, over all kinds of files.
 const FLIPS: usize = 120;
 
 /// Runs the program with `words` in `folder`.
@@ -96,9 +97,9 @@ const KINDS: [Kind; 7] = [
     },
 ];
 
-/// Scene of the recording with a small run.
+/// Scene that evaluates the recording `data` in a small run.
 const SCENE: &str = "scene_version = 1\nname = \"drawn\"\nsensor = { dataset = \"data\" }\nmodel = { name = \"ridge\" }\n";
-/// Sweep of it with two tasks.
+/// Sweep with two tasks: two models on the recording `data`.
 const SWEEP: &str = "sweep_version = 1\ndatasets = [\"data\"]\nmodels = [\"ridge\", \"baseline\"]\nmetrics = [\"accuracy\"]\n";
 
 fn prepare(folder: &Path) {

@@ -1,4 +1,4 @@
-//! Links at every predictable file name of a command: the link targets keep their content.
+//! Tests of links at every predictable file name of a command. The files to which the links lead must keep their content.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -11,9 +11,9 @@ use taceva_tests::{Form, Lab, scratch, taceva};
 const MAKING: &str =
     "trace=open,openat,creat,mkdir,mkdirat,rename,renameat,renameat2,link,linkat,symlink,symlinkat";
 
-/// Number of links at names of an earlier run, if no name is predictable.
+/// Number of links at names that an earlier run created, for a command whose names are not predictable.
 const SOME: usize = 8;
-/// Most names of a command at which links are tried.
+/// Maximum number of names of one command at which links are tried.
 const MOST: usize = 24;
 
 /// Commands, each in a folder `work` in which only they create names. Inputs are in `given` beside it.
@@ -240,7 +240,7 @@ impl Bench {
 const SWEEP: &str =
     "sweep_version = 1\ndatasets = [\"data\"]\nmodels = [\"ridge\"]\nmetrics = [\"accuracy\"]\n";
 
-/// Two parts, measured twice by two units.
+/// Table of a measurement study: two parts, each measured twice by two units.
 const STUDY: &str = "part,unit,trial,Fz\na,1,1,0.1\na,1,2,0.11\na,2,1,0.13\na,2,2,0.12\nb,1,1,0.5\nb,1,2,0.52\nb,2,1,0.53\nb,2,2,0.55\n";
 
 const BUDGET: &str = "budget_version = 1\nmeasurand = \"Fz\"\nat = [\"1 N\"]\n[[source]]\nname = \"lamp\"\nu = \"10 mN\"\n";
@@ -285,7 +285,7 @@ fn copied(from: &Path, to: &Path) {
     }
 }
 
-/// Creates a folder of another user, which looks like a dataset and contains further files.
+/// Creates a folder that belongs to another program: it looks like a dataset but contains further files.
 fn theirs(folder: &Path) {
     if folder.exists() {
         std::fs::remove_dir_all(folder).expect("removed");
@@ -310,7 +310,7 @@ fn content(folder: &Path) -> Vec<(String, Vec<u8>)> {
     content
 }
 
-/// True if a link at `path` is a user's choice of location: new files are stored there, and existing ones stay.
+/// True if a user may place a link at `path` to store files elsewhere: new files are then written there, and existing ones stay.
 fn is_kept_elsewhere(path: &Path, work: &Path) -> bool {
     ["cache", "share", "which.sweep", "figures", "print", "pages"]
         .iter()

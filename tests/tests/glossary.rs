@@ -6,7 +6,7 @@ use std::fs;
 use taceva_tests::source::{rust_files, without_text};
 use taceva_tests::{metadata, read};
 
-/// Words replaced in all crates, each with its replacement. A word is listed once no `src` uses it.
+/// Replaced words, each with its replacement. No crate uses these words.
 const REPLACED: &[(&str, &str)] = &[
     ("contender", "what it is, such as a kernel"),
     ("contenders", "what they are, such as kernels"),
@@ -25,7 +25,7 @@ const REPLACED: &[(&str, &str)] = &[
     ("told", "predicted, given, distinguished"),
 ];
 
-/// Words replaced except in the listed crates.
+/// Replaced words, each with its replacement and the crates that may still use it.
 const REPLACED_BUT_IN: &[(&str, &str, &[&str])] = &[
     // `draft`: a first map for a folder of a laboratory.
     ("draft", "collect", &["taceva-cli", "taceva-import"]),
@@ -56,7 +56,7 @@ const REPLACED_BUT_IN: &[(&str, &str, &[&str])] = &[
     ),
 ];
 
-/// Words replaced only in the listed crates. A device may be silent; other things have a more precise name.
+/// Replaced words, each with its replacement and the crates that no longer use it. A device may be silent; other things have a more precise name.
 const REPLACED_IN: &[(&str, &str, &[&str])] = &[(
     "silent",
     "what it is, such as SilentProgress",
@@ -75,7 +75,7 @@ const REPLACED_IN: &[(&str, &str, &[&str])] = &[(
     ],
 )];
 
-/// Identifiers that contain such a word and are precise.
+/// Identifiers that contain a replaced word and are allowed, because they are precise.
 const KEPT: [&str; 1] = ["SilentProgress"];
 
 /// The terms of the glossary, in lower case, each with its definition.
@@ -176,7 +176,7 @@ fn identifiers(code: &str) -> BTreeSet<String> {
     named.map(str::to_owned).collect()
 }
 
-/// `is_told`, `IsTold` and `IS_TOLD` as words in lower case.
+/// Splits an identifier into words in lower case: `is_told`, `IsTold` and `IS_TOLD` give `is` and `told`.
 fn words_of(identifier: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut was_lower = false;

@@ -1,4 +1,4 @@
-//! Programs killed repeatedly at random moments: nothing is lost or duplicated, and the final result is the same.
+//! Tests of programs that are killed repeatedly at random moments. Nothing is lost or duplicated, and the final result is the same.
 
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -17,7 +17,7 @@ const KILLS_OF_ADDITIONS: usize = 40;
 const REPLACEMENTS: usize = 40;
 const PICTURES: u32 = 60;
 
-/// Lines of a killed recorder.
+/// Facts in the lines that a killed recorder printed.
 #[derive(Debug, Default)]
 struct Heard {
     resumed: Option<usize>,
@@ -47,7 +47,7 @@ fn killed(command: &mut Command, acks: usize, more: Duration) -> Heard {
     heard
 }
 
-/// True if the line was an acknowledgement.
+/// Adds the facts in `line` to `heard`. Returns true if the line was an acknowledgement.
 fn hear(line: &str, heard: &mut Heard) -> bool {
     let number = |prefix: &str| line.strip_prefix(prefix)?.parse().ok();
     if let Some(rows) = number("RESUMED ") {
@@ -77,7 +77,8 @@ fn micros(random: &mut Random, end: usize) -> Duration {
     Duration::from_micros(random.below(end) as u64)
 }
 
-/// Kills recordings until `kills` are done, each after up to `most_acks` acknowledgements.
+/// Kills recorders at random moments until `kills` are done. Each kill follows at most `most_acks` acknowledgements and a delay below `window_us`,
+/// µs. Checks every recording.
 #[expect(clippy::print_stderr, reason = "the counts are the result")]
 fn kill_recordings(recorded: &Recorded, kills: usize, most_acks: usize, window_us: usize) {
     let mut random = Random::new(SEED);

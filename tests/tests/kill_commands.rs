@@ -29,7 +29,7 @@ fn command(folder: &Path, words: &str) -> Command {
     command
 }
 
-/// Files that no finished command leaves: staged names, temporary files and claims.
+/// Files that remain only after an interruption: staged names, temporary files and claims.
 fn leftovers(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in folder.read_dir().into_iter().flatten().flatten() {
@@ -47,7 +47,7 @@ fn leftovers(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Kills the command at random moments. `anew` restores the folder before each.
+/// Kills the command at random moments. `anew` restores the folder before each kill.
 #[expect(clippy::print_stderr, reason = "the counts are the result")]
 fn kill_often(name: &str, folder: &Path, words: &str, anew: impl Fn()) {
     std::fs::create_dir_all(folder.join("tmp")).expect("room");

@@ -14,7 +14,7 @@ fn metadata() -> Metadata {
         .expect("cargo metadata of the workspace that is being tested")
 }
 
-/// All packages compiled into `package` or for its build, on any platform, without tests.
+/// All packages that are compiled into `package` or needed to build it, on any platform, except for its tests.
 fn tree<'a>(package: &Package, metadata: &'a Metadata) -> Vec<&'a Package> {
     let resolve = metadata
         .resolve
@@ -42,7 +42,7 @@ fn tree<'a>(package: &Package, metadata: &'a Metadata) -> Vec<&'a Package> {
         .collect()
 }
 
-/// Crates of the workspace with their stated versions.
+/// Crates of the workspace, with the Rust version that each states.
 fn ours(metadata: &Metadata) -> Vec<(&Package, Version)> {
     let packages = metadata.workspace_packages().into_iter();
     packages

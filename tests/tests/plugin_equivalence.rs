@@ -1,4 +1,4 @@
-//! A study has the same bytes for devices linked in, loaded in process, or in a confined child.
+//! Tests that a study has the same bytes for three kinds of devices: linked in, loaded as a plugin in process, or run in a confined child process.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -7,7 +7,7 @@ use std::sync::Arc;
 use taceva_tests::power_cut::{Tree, read_tree};
 use taceva_tests::{library, root, scratch, taceva};
 
-/// Short scene with a picture size that the manifest lacks, forces, two units, another light and a board.
+/// Short scene with forces, two units, a second light and a board. The plugin's manifest lacks the picture size.
 const SCENE: &str = r#"scene_version = 1
 name = "study"
 seed = 7
@@ -21,7 +21,7 @@ protocol = { calibration = { points = 4, indentations = 2 }, spatial = { points 
 
 const PLUGIN: &str = "org.taceva.sim/";
 
-/// The bench as a plugin, in its own folder.
+/// Creates a folder that contains the simulated bench as a plugin.
 fn plugin() -> tempfile::TempDir {
     let folder = scratch();
     let built = library("taceva-sim-plugin");

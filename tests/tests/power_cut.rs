@@ -1,4 +1,4 @@
-//! Power cuts at every moment of an import and of a recording: promised data is present.
+//! Tests of power cuts at every moment of an import and of a recording: data that was reported as durable is present.
 
 use std::ops::Range;
 use std::path::Path;
@@ -10,7 +10,7 @@ use taceva_tests::power_cut::{Counted, Disk, State, Trace, TraceError, write_tre
 use taceva_tests::recorded::{Recorded, open_whole, reference};
 use taceva_tests::{Form, Lab, example, scratch, taceva};
 
-/// Most states of a first cut from which a second recorder is traced; each takes a tenth of a second.
+/// Maximum number of states after a first power cut from which a second recorder is traced. Each takes a tenth of a second.
 const MOST_RESUMED: usize = 80;
 
 /// Runs `command` in the folder at `watched`; `None` if programs cannot be traced.
@@ -110,8 +110,8 @@ fn an_import_that_replaces_a_dataset_leaves_the_old_one_or_the_new_one_in_place(
     assert_old_or_new("import --force", &trace, [replaced, expected]);
 }
 
-/// Asserts that after any operation of `trace` the dataset is the old or the new one, and the new one once it was reported. Nothing else
-/// may remain.
+/// Asserts that after a power cut at any operation of `trace`, the dataset is the old or the new one. It must be the new one once success was
+/// reported. Nothing else may remain.
 fn assert_old_or_new(command: &str, trace: &Trace, [old, new]: [Digest; 2]) {
     let counted = trace.each_state(0..trace.operations.len() + 1, |state| {
         let restarted = scratch();
@@ -185,7 +185,7 @@ fn try_all(recorded: &Recorded, trace: &Trace, cuts: Range<usize>) -> Counted {
     trace.each_state(cuts, |state| recovers(recorded, state, 0))
 }
 
-/// Checks that samples acknowledged here or `before` are recovered, and that a closed recording needs no recovery.
+/// Checks that all samples are recovered that were acknowledged in this run or `before`. A closed recording must need no recovery.
 fn recovers(recorded: &Recorded, state: &State<'_>, before: usize) -> Result<(), String> {
     let restarted = scratch();
     let target = restarted.path().join("set");

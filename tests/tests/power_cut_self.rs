@@ -1,4 +1,4 @@
-//! The search for power-cut states finds every planted bug and reports no other.
+//! Tests that the search for states after a power cut finds every planted bug and reports no other.
 
 use std::process::Command;
 
@@ -6,7 +6,7 @@ use taceva_needs::{Need, skip};
 use taceva_tests::power_cut::{Counted, Disk, State, Trace, TraceError};
 use taceva_tests::toy::{HEADER, JOURNAL, Protocol, new_header, old_header, recovered};
 
-/// Promise of the protocol: claimed data is present and complete, and no other data exists.
+/// Checks the promise of `protocol` in a state: data with a printed success is present and complete, and no other data exists.
 fn promise(protocol: Protocol, state: &State<'_>) -> Result<(), String> {
     let claimed = state.acknowledged();
     if protocol.is_journal() {

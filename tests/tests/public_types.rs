@@ -1,11 +1,11 @@
-//! Requirements on the public types of crates for external use: an example that runs, and room for new fields or variants.
+//! Requirements on the public types of crates that other projects use: a documented example, and room for new fields or variants.
 
 use std::fs;
 
 use taceva_tests::root;
 use taceva_tests::source::{rust_files, without_tests};
 
-/// Crates with a stable interface, by folder.
+/// Folders of the crates with a stable interface.
 const PROMISED: [&str; 6] = [
     "taceva-core",
     "crates/recordings/dataset",
@@ -15,9 +15,9 @@ const PROMISED: [&str; 6] = [
     "plugins/sdk",
 ];
 
-/// Words in the doc comment of a complete struct with public fields; the sentence gives the reason.
+/// Words in the doc comment of a struct with public fields that will get no further field. Their sentence gives the reason.
 const COMPLETE_STRUCT: &str = "gets no further field";
-/// Words in the doc comment of a complete enum.
+/// Words in the doc comment of an enum that will get no further variant.
 const COMPLETE_ENUM: &str = "gets no further variant";
 
 /// A public type as declared in its source.
@@ -73,7 +73,7 @@ fn public_types(code: &str) -> Vec<PublicType> {
     found
 }
 
-/// Files of these crates with the types of each, by path from the workspace root.
+/// Files of the crates in [`PROMISED`], by path from the workspace root, with the types of each.
 fn all_types() -> Vec<(String, Vec<PublicType>)> {
     let mut found = Vec::new();
     for folder in PROMISED {
@@ -87,7 +87,7 @@ fn all_types() -> Vec<(String, Vec<PublicType>)> {
     found
 }
 
-/// Types that violate a requirement, each after the path of its file.
+/// Types for which `is_owed` returns true, each after the path of its file.
 fn owed(is_owed: impl Fn(&str, &PublicType) -> bool) -> Vec<String> {
     let mut owed = Vec::new();
     for (path, types) in all_types() {

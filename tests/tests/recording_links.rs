@@ -8,7 +8,7 @@ use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, Sourc
 use taceva_tests::power_cut::{read_tree, write_tree};
 use taceva_tests::{Form, Lab, scratch, taceva};
 
-/// End of a command on a recording that contains a link.
+/// Result of a command on a recording that contains a link.
 struct Ended {
     /// Path that the link replaced.
     name: String,
@@ -16,7 +16,8 @@ struct Ended {
     message: String,
 }
 
-/// Runs `words` once for each file and folder of `recording`. `DATA` in `words` is a copy of the recording in which a link replaces this entry.
+/// Runs the command `words` once for each file and folder of `recording`. `DATA` in `words` is a copy of the recording in which a link replaces this
+/// file or folder.
 fn with_links(recording: &Path, words: &[&str]) -> Vec<Ended> {
     let whole = read_tree(recording).expect("readable");
     let mut ended = Vec::new();

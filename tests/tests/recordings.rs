@@ -1,4 +1,4 @@
-//! Maps of the real sets, and their expected results. Skipped, with a printed reason, if a set is absent.
+//! Tests of the import maps of real data sets. Skipped, with a printed reason, if a data set is absent.
 
 use std::num::NonZeroUsize;
 use std::path::Path;

@@ -1,4 +1,5 @@
-//! Parts of a release: `.ci/release` calls each script, its page names each, and release notes are sections of the changelog.
+//! Tests of the parts of a release. `.ci/release` calls each script, the page about releases names each, and release notes are sections of the
+//! changelog.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -6,7 +7,7 @@ use std::process::{Command, Output};
 
 use taceva_tests::{read, root};
 
-/// Scripts of `.ci` outside a release: the release itself, checks of every change, and a measurement.
+/// Scripts in `.ci` that are not part of a release: the release script itself, checks of every change, and others.
 const OTHERS: [&str; 7] = [
     "driver-sizes",
     "install",

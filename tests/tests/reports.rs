@@ -1,5 +1,4 @@
-//! Reports of real recordings: compared, chosen and drawn, as far as their labels allow. Skipped, with a printed reason, if a set is
-//! absent.
+//! Tests of reports about real recordings, as far as their labels allow. Skipped, with a printed reason, if a data set is absent.
 
 use std::num::NonZeroUsize;
 
@@ -19,7 +18,7 @@ const WORK: Work<'_> = Work {
     cache: None,
 };
 
-/// Evaluates `model` on the set `name`, with its samples.
+/// Evaluates `model` on the data set `name`. Returns the scores with the samples; `None` if the data set is absent.
 fn study(name: &str, model: &str, split: &str) -> Option<Study> {
     let source = recording(name)?;
     let map = root()

@@ -20,7 +20,7 @@ fn said(arguments: &[&Path]) -> (Option<i32>, String, String) {
     )
 }
 
-/// List of `sha256sum` for the files of the folder.
+/// Output of `sha256sum` for the files in the folder of `lab`.
 fn sums(lab: &Lab) -> String {
     let mut list = String::new();
     let frames = lab.path().join("frames");

@@ -1,4 +1,4 @@
-//! Limits on structure figures inside crates. `cargo run -p taceva-tests --bin structure -- --all` prints the figures.
+//! Limits on numbers that describe the structure of crates. `cargo run -p taceva-tests --bin structure -- --all` prints the numbers.
 
 use taceva_tests::metadata;
 use taceva_tests::structure::{
@@ -6,33 +6,25 @@ use taceva_tests::structure::{
     sources, tuple_parameters, walks,
 };
 
-/// Most lines of product code, and of all `.rs` files. Readers of SQLite, bags, Arrow and protobuf, and angles, take 6,000 and 11,000 of
-/// them, gauge studies, budgets, curves and their distributions 9,000 and 13,000, agreement and tolerance intervals of predictions 750 and
-/// 1,400, certificates 1,300 and 2,700, `taceva budget`, decision rules, settings of boxes and remedies 3,350 and 7,800,
-/// bundles with models, forms and catalogues 7,800 and 13,500, faults and wear 2,950 and 5,400, unkinder emulators 1,700,
-/// scores, labels, models, maps, pages, presses, sweeps and shards of tasks 16,100 and 31,000, the monitor of a sensor in use 1,300 and 2,500, zeros of presses
-/// 900 and 2,000, clocks of cameras, devices in the methods and zeros in budgets 700 and 1,600, faults in scenes, of recordings and of plugins, and loads of a gel 4,400 and 8,100,
-/// late halts, and paths of a robot's client 320 and 1,200, studies by folds, and their curve of time against width 850 and 1,400,
-/// metrics of cells, LEDs, units of stamps and projects in C 750 and 2,000, lost frames of plugins, raw zeros and limits of sessions, and units of boxes 190 and 870, faults of taxels and of times, and models compared by
-/// faults 1,050 and 2,500, wanted widths, splits of scenes and repeated benchmarks 700 and 1,700, trials of users 1,000 and 2,300.
-const MOST_LINES: (usize, usize) = (269_200, 521_300);
+/// Maximum number of lines of product code, and of all lines in `.rs` files. A commit that adds lines raises these limits and states it.
+const MOST_LINES: (usize, usize) = (270_200, 522_900);
 
-/// Most lines of one file, with its comments and tests.
+/// Maximum number of lines of one file, with its comments and tests.
 const MOST_LINES_OF_A_FILE: usize = 400;
 
-/// Most tuple parameters.
+/// Maximum number of tuple parameters of functions.
 const MOST_TUPLES: usize = 4;
 
-/// Most files named by participles.
+/// Maximum number of files that are named by participles.
 const MOST_PARTICIPLES: usize = 4;
 
-/// Most stops of one value from entry to end, and most returns to a file that it left.
+/// Maximum number of functions that one value passes through in the program, and of its returns to a file that it had left.
 const MOST_STOPS: (usize, usize) = (12, 3);
 
 /// Greatest share of a package's doc comments that begin with a clause, in per cent.
 const MOST_CLAUSES: f64 = 4.0;
 
-/// Remaining knots of top-level modules, by package, each with its number of modules.
+/// Accepted groups of top-level modules that import each other, by package, each with its number of modules.
 const KNOTS: &[(&str, usize)] = &[];
 
 #[test]

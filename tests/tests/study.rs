@@ -1,4 +1,4 @@
-//! A study killed or cut off from power at any moment resumes to the same bytes as an uninterrupted one.
+//! Tests that a study resumes to the same bytes as an uninterrupted study after a kill or a power cut at any moment.
 
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -11,10 +11,11 @@ use taceva_tests::{Random, scratch, taceva};
 const SEED: u64 = 20_261_121;
 /// Default number of kills; `TACEVA_STUDY_KILLS` overrides it.
 const KILLS: usize = 60;
-/// Most moments of a power cut, and most states of each that are resumed; each is a study. `TACEVA_STUDY_CUTS` overrides the first.
+/// Maximum number of moments at which a power cut is tried; `TACEVA_STUDY_CUTS` overrides it. At most [`STATES`] states after each cut are resumed,
+/// each in one study.
 const CUTS: usize = 40;
 const STATES: usize = 8;
-/// One in this many kills hits a run that resumes after a kill.
+/// One kill among this number hits a run that resumes after an earlier kill.
 const RESUMED: usize = 5;
 
 /// Short scene with pictures, forces, two units, another light and a board.
@@ -54,7 +55,7 @@ fn study(folder: &Path) -> Command {
     command
 }
 
-/// Runs the study to its end.
+/// Runs the study to its end. Returns its files, or its error message.
 fn finished(folder: &Path) -> Result<Tree, String> {
     let output = study(folder)
         .stdin(Stdio::null())
@@ -66,7 +67,7 @@ fn finished(folder: &Path) -> Result<Tree, String> {
     read_tree(&folder.join("run")).map_err(|error| error.to_string())
 }
 
-/// A folder with the scene.
+/// Creates a folder that contains `scene`.
 fn with(scene: &str) -> tempfile::TempDir {
     let folder = scratch();
     std::fs::write(folder.path().join("study.toml"), scene).expect("room for a scene");

@@ -1,5 +1,5 @@
-//! A real recording of taxels: imported by its map, evaluated, and compared with scikit-learn's scores. Skipped, with a printed reason, if
-//! it is absent.
+//! Tests a real recording of taxels: it is imported with its map, evaluated, and compared with the scores of scikit-learn. Skipped, with a printed
+//! reason, if the recording is absent.
 
 use std::num::NonZeroUsize;
 
@@ -17,7 +17,7 @@ const WORK: Work<'_> = Work {
     cache: None,
 };
 
-/// Training and test parts of its authors.
+/// Training and test parts that the authors of the recording use.
 const SPLIT: &str = "by-column:half=train:training;test:validation";
 
 fn r2(dataset: &Dataset, model: &str, words: &[&str]) -> f64 {

@@ -1,4 +1,5 @@
-//! Directories of temporary files on another file system, full, or of another owner; and a home that is not a folder.
+//! Tests of a directory for temporary files that is on another file system, is full, or belongs to another user. Also tests a home directory that is
+//! not a folder.
 
 use std::fs::Permissions;
 use std::os::unix::fs::{MetadataExt, PermissionsExt};

@@ -1,4 +1,4 @@
-//! Tests that mostly wait for emulated devices in real time: `.ci/test` runs them beside tests that compute.
+//! Tests that mostly wait for emulated devices in real time. `.ci/test` runs them at the same time as tests that need the processor.
 
 mod rig_session;
 mod rig_tap;

@@ -1,4 +1,4 @@
-//! Faults on the links: the arm stops in time, and every press is recorded once. The example `wire_faults` plays each fault 100 times.
+//! Tests of faults of the links: the robot stops in time, and every press is recorded once. The example `wire_faults` injects each fault 100 times.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -6,16 +6,16 @@ use taceva_needs::{Need, required, skip};
 use taceva_tests::wire::faults::{CASES, Case, play, play_kills};
 
 const SEED: u64 = 20_261_123;
-/// Number of repetitions of each fault here.
+/// Number of repetitions of each fault in these tests.
 const FEW: usize = 3;
 
-/// One study at a time: each needs the whole machine.
+/// Lock under which only one study runs at a time, because each study needs the whole machine.
 static ALONE: Mutex<()> = Mutex::new(());
 
 /// Command that tests how soon the arm stands.
 const HOW: &str = "the arm must stand within milliseconds: TACEVA_REQUIRE=quiet-machine chrt -f 10 cargo test -p taceva-tests --test tests wire_faults::";
 
-/// The whole machine, if limits of milliseconds can be tested here. Otherwise prints `how` they are tested.
+/// Locks the whole machine for a test with limits of milliseconds. If the machine is not stated to be quiet, skips the test with the message `how`.
 pub(crate) fn alone(how: &str) -> Option<MutexGuard<'static, ()>> {
     let named = required(std::env::var_os("TACEVA_REQUIRE").as_deref());
     let is_quiet = named.is_ok_and(|named| named.contains(&Need::QuietMachine));

@@ -8,17 +8,17 @@ use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use serde_json::{Value, json};
 
-/// Names under which the browser is searched on the path.
+/// Names of browser programs that are searched for on the path.
 const NAMES: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
-/// A browser with one page.
+/// A browser with one open page.
 pub struct Browser {
     child: Child,
     to: ChildStdin,
     from: BufReader<ChildStdout>,
     next: u64,
     session: Option<String>,
-    /// Received events.
+    /// Events that the browser has sent.
     events: Vec<Value>,
 }
 
@@ -146,7 +146,7 @@ impl Browser {
         serde_json::from_slice(&bytes).expect("JSON")
     }
 
-    /// Fails if the console has a message, an address that is not `is_own` was requested, or a dialog was shown.
+    /// Fails if the console has a message, a dialog was shown, or an address was requested for which `is_own` returns false.
     ///
     /// # Panics
     /// If any of these happened.

@@ -1,5 +1,5 @@
-//! External needs of tests: programs, devices and data that a machine may lack. A test without its need calls [`skip`] and returns. `skip` adds a line to the
-//! list that `.ci/test` prints at its end. The test fails instead if `TACEVA_REQUIRE` names the need.
+//! Programs, devices and data that tests need, but that a machine may lack. A test whose need is not met calls [`skip`] and returns. `skip` adds a
+//! line to the list that `.ci/test` prints at its end. The test fails instead if `TACEVA_REQUIRE` names the need.
 
 #[cfg(feature = "browser")]
 mod browser;
@@ -17,8 +17,7 @@ use std::fmt::Display;
 ///
 /// The test's name is the name of its thread, which the test harness sets.
 ///
-/// # Panics
-/// If `TACEVA_REQUIRE` names the need, names one that does not exist, or the list cannot be written: the test fails.
+/// # Panics If `TACEVA_REQUIRE` names this need or an unknown need, or if the list cannot be written. The test then fails.
 #[expect(clippy::print_stderr, reason = "a skipped test must say why")]
 pub fn skip(need: Need, reason: impl Display) {
     let reason = reason.to_string();

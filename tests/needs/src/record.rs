@@ -38,7 +38,8 @@ fn list(program: &Path) -> PathBuf {
     }
 }
 
-/// Path in the target folder that cargo marks. Without such a folder, for example after a restore from an archive, the path is beside the program.
+/// Path in the build's target folder, found by cargo's tag file. Without such a folder, for example after a restore from an archive, the path is
+/// beside the program.
 fn beside_what_was_built(program: &Path) -> PathBuf {
     let above = program.ancestors().skip(1);
     let target = above

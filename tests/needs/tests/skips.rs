@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 
 use taceva_needs::{LIST, Need, UnknownNeed, required, skip};
 
-/// Helper of the tests below, which run it in a process with another environment.
+/// Test that the other tests of this file run in a separate process, with another environment.
 #[test]
 fn a_test_that_finds_no_gpu() {
     if std::env::var_os("TACEVA_NEEDS_TRIAL").is_some() {

@@ -1,4 +1,4 @@
-//! Faulty devices: wrappers that make a device fail like real hardware, call by call, determined by a seed.
+//! Wrappers that make a device fail like real hardware. A seed determines the calls that fail.
 //!
 //! A fault appears as on a real device: a frozen force transducer answers promptly with old values. The [`FaultLog`] counts the faults, so that a test can
 //! prove that each kind occurred.

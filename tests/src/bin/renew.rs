@@ -61,7 +61,7 @@ fn main() -> anyhow::Result<ExitCode> {
     })
 }
 
-/// Builds the program with the profile of this one; returns the folder of the programs.
+/// Builds the program `taceva` with the build profile of this program. Returns the folder of the programs.
 fn build(root: &Path) -> anyhow::Result<PathBuf> {
     let own = env::current_exe()?;
     let folder = own.parent().context("a program is in a folder")?;

@@ -1,6 +1,6 @@
-//! Prints the figures of the structure of the workspace.
+//! Prints counts that describe the structure of the workspace.
 //!
-//! `cargo run -p taceva-tests --bin structure` prints the sums, `… -- --all` each file and parameter too.
+//! `cargo run -p taceva-tests --bin structure` prints the sums. `… -- --all` also lists each file and parameter.
 
 use std::error::Error;
 use std::io::Write as _;
@@ -104,7 +104,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Prints one line for each item, if all are requested.
+/// Prints one line for each item of `found` if `shows_all` is true.
 fn list(
     out: &mut impl std::io::Write,
     shows_all: bool,

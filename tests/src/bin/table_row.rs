@@ -19,7 +19,7 @@ use taceva_core::Unit;
 use taceva_metrics::Standing;
 use taceva_report::{FormattedValue, spaced};
 
-/// One score.
+/// A score from a table of scores.
 #[derive(Clone, Debug)]
 struct Score {
     value: f64,

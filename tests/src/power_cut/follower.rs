@@ -15,13 +15,13 @@ struct OpenFile {
     appends: bool,
 }
 
-/// Tracks the kernel state of each call: descriptors, offsets, names.
+/// Tracks descriptors, file offsets and names as the kernel does, one system call after another.
 pub(super) struct Follower<'a> {
     watched: &'a Path,
     pub(super) disk: Disk,
     pub(super) operations: Vec<Operation>,
     lexer: Lexer,
-    /// Descriptor → position in `open`.
+    /// Position in `open` of the file of each descriptor.
     descriptors: HashMap<String, usize>,
     open: Vec<OpenFile>,
     /// Incomplete last line of standard output.
@@ -116,7 +116,7 @@ impl<'a> Follower<'a> {
         }
     }
 
-    /// Returns an error if one of the arguments is a descriptor in the watched folder.
+    /// Returns an error if an argument of `call` at one of `positions` is a descriptor in the watched folder.
     fn unless_watched(&self, call: &Call, positions: &[usize]) -> Result<(), String> {
         let touched = positions
             .iter()
@@ -321,7 +321,7 @@ impl<'a> Follower<'a> {
         name.map(|name| (folder, name))
     }
 
-    /// Like [`name`](Follower::name), without a name for the folder that the path is relative to.
+    /// Like [`name`](Follower::name), but without a name if the path is the folder itself.
     fn place(&self, at: &str, path: &str) -> Option<(ObjectId, Option<String>)> {
         let bytes = bytes_of(path);
         let text = String::from_utf8_lossy(&bytes).into_owned();

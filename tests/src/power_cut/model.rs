@@ -42,7 +42,7 @@ pub(super) enum Object {
     Folder(Layered<Names, NameChange>),
 }
 
-/// A watched folder with its content, and the lines printed so far.
+/// A watched folder with its content, and the lines that the program has printed.
 #[derive(Clone, Debug)]
 pub struct Disk {
     pub(super) objects: Vec<Object>,
@@ -84,12 +84,12 @@ impl Disk {
         Ok(())
     }
 
-    /// Lines printed so far.
+    /// Lines that the program has printed so far.
     pub fn printed(&self) -> &[String] {
         &self.printed
     }
 
-    /// Operations applied so far.
+    /// Number of operations applied so far.
     pub fn applied(&self) -> usize {
         self.applied
     }
@@ -115,7 +115,7 @@ impl Disk {
         self.objects.len()
     }
 
-    /// Applies `operation`.
+    /// Applies `operation` to the current state. A change becomes durable when a sync covers it.
     pub fn apply(&mut self, operation: &Operation) {
         match operation {
             Operation::Create { folder, name, kind } => {
@@ -165,7 +165,8 @@ impl Disk {
         }
     }
 
-    /// Exchanges two names. The exchange is atomic within a folder, because its journal stores names. Between folders, each half is separate.
+    /// Exchanges two names. The exchange is atomic within a folder, because its journal stores names. Between two folders, a cut may leave only one
+    /// of the two changes.
     fn exchange(&mut self, one: &(ObjectId, String), other: &(ObjectId, String)) {
         let (Some(first), Some(second)) =
             (self.lookup(one.0, &one.1), self.lookup(other.0, &other.1))
@@ -236,7 +237,7 @@ impl Disk {
 }
 
 impl<T: Clone, C> Layered<T, C> {
-    /// A fully durable object.
+    /// Creates a fully durable object with the content `value`.
     fn settled(value: T) -> Layered<T, C> {
         Layered {
             durable: value.clone(),

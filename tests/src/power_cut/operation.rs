@@ -3,7 +3,7 @@
 /// Number of a file or a folder, independent of its names; the watched folder is 0.
 pub type ObjectId = usize;
 
-/// The watched folder itself.
+/// Number of the watched folder.
 pub const ROOT: ObjectId = 0;
 
 /// Operation on the watched folder, or printed line.
@@ -11,7 +11,7 @@ pub const ROOT: ObjectId = 0;
 pub enum Operation {
     /// Creation of a file or folder; its number is the next free one.
     Create {
-        /// Parent folder.
+        /// Parent folder of the new object.
         folder: ObjectId,
         /// Name of the new object.
         name: String,
@@ -22,19 +22,19 @@ pub enum Operation {
     Link {
         /// Parent folder.
         folder: ObjectId,
-        /// The name.
+        /// The additional name.
         name: String,
-        /// Object of the name.
+        /// Object that gets the name.
         object: ObjectId,
     },
     /// Removal of a name.
     Remove {
         /// Parent folder.
         folder: ObjectId,
-        /// The name.
+        /// The removed name.
         name: String,
     },
-    /// Renaming, which replaces an object of the new name.
+    /// Renaming of an object. It replaces any object that has the new name.
     Rename {
         /// Folder and name before.
         from: (ObjectId, String),
@@ -50,16 +50,16 @@ pub enum Operation {
     },
     /// Write of bytes to a file.
     Write {
-        /// The file.
+        /// File to which the bytes are written.
         file: ObjectId,
-        /// Offset, bytes.
+        /// Offset of the first byte in the file, bytes.
         offset: usize,
-        /// The bytes.
+        /// Bytes that are written.
         bytes: Vec<u8>,
     },
     /// Truncation of a file, or extension with zeros.
     Resize {
-        /// The file.
+        /// File whose length changes.
         file: ObjectId,
         /// New length, bytes.
         length: usize,
@@ -78,8 +78,8 @@ pub enum Operation {
 /// A file or a folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// File.
+    /// A file.
     File,
-    /// Folder.
+    /// A folder.
     Folder,
 }

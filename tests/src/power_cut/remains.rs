@@ -1,4 +1,4 @@
-//! Possible remains of each object that is not fully durable after a cut, and all combinations of them.
+//! Possible contents, after a power cut, of each object that is not fully durable, and all combinations of them.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -7,13 +7,13 @@ use super::model::{ByteChange, Bytes, Disk, Layered, Names, Object};
 use super::operation::ObjectId;
 use crate::random::Random;
 
-/// Positions at which the last write of a file may be torn: within a sector, at its edges, at the edges of a page. Also in the middle and
-/// before the last byte.
+/// Numbers of bytes that remain of the last write of a file if a power cut tears it: within a sector, or near the end of a sector or page. Other
+/// tears are in the middle and before the last byte.
 const TEARS: [usize; 5] = [1, 511, 512, 4096, 4097];
-/// Largest number of changes of a file for which every subset is tried; beyond it, prefixes and random subsets.
+/// Largest number of changes of a file for which every subset is tried. For more changes, prefixes and random subsets are tried.
 const ALL_SUBSETS_UP_TO: usize = 5;
 const DRAWN_SUBSETS: usize = 24;
-/// Largest number of combinations of a cut that are all tried; beyond it, this many are drawn and the cut is reported.
+/// Largest number of combinations at one power cut that are all tried. For more, this many are drawn and the cut is reported.
 const COMBINATIONS: usize = 20_000;
 
 /// Possible state of an object that is not fully durable.
@@ -31,7 +31,7 @@ impl Remains {
     }
 }
 
-/// One of the [`Remains`] for each object that is not fully durable.
+/// A combination: one possible state for each object that is not fully durable.
 pub(super) struct Picked<'a> {
     choices: &'a Choices,
     positions: &'a [usize],
@@ -55,7 +55,7 @@ impl Picked<'_> {
     }
 }
 
-/// All choices at one cut.
+/// Possible states of each object at one power cut.
 pub(super) struct Choices {
     remains: Vec<Remains>,
     place_of: HashMap<ObjectId, usize>,
@@ -147,7 +147,8 @@ impl Choices {
     }
 }
 
-/// Possible contents of a file: any subset of its changes, with the last one torn and the part after the tear missing or zero.
+/// Possible contents of a file: the durable bytes with any subset of the later changes. The last change may be torn; the bytes after the tear are
+/// then missing or zero.
 fn possible_bytes(file: &Layered<Bytes, ByteChange>, random: &mut Random) -> Vec<Arc<Bytes>> {
     let mut found: HashSet<Bytes> = HashSet::from([file.durable.clone()]);
     for subset in subsets(file.pending.len(), random) {

@@ -16,11 +16,11 @@ pub(super) struct Seen {
     of_durable: BTreeMap<ObjectId, (Arc<Bytes>, usize)>,
 }
 
-/// Number of anything but a file.
+/// Number that stands for a folder in the key of a state.
 const FOLDER: usize = usize::MAX;
 
 impl Seen {
-    /// Tree of a combination, unless it was seen before with the same printed lines.
+    /// Tree of the combination `picked`; `None` if this tree was seen before with the same printed lines.
     pub(super) fn new_tree(&mut self, disk: &Disk, picked: &Picked<'_>) -> Option<Tree> {
         let mut tree = Tree::new();
         let mut key = Vec::new();
@@ -70,7 +70,7 @@ impl Seen {
             .clone()
     }
 
-    /// Like [`number`](Seen::number), and remembers the last bytes of a durable file.
+    /// Like [`number`](Seen::number), for a durable file. Stores the number with the bytes, so that an unchanged file is not looked up again.
     fn number_durable(&mut self, id: ObjectId, bytes: &Bytes) -> (usize, Arc<Bytes>) {
         if let Some((known, number)) = self.of_durable.get(&id)
             && **known == *bytes

@@ -43,23 +43,23 @@ impl State<'_> {
     }
 }
 
-/// Results of all states.
+/// Results of checking all states.
 #[derive(Debug, Default)]
 pub struct Counted {
-    /// Number of cuts.
+    /// Number of power cuts.
     pub cuts: usize,
     /// Number of distinct states; a state shared by two cuts counts once.
     pub states: usize,
     /// Number of cuts with more combinations than were tried.
     pub capped: usize,
-    /// Number of states that broke the promise.
+    /// Number of states for which the check failed.
     pub violations: usize,
     /// First violation: operation and cause.
     pub first: Option<String>,
 }
 
 impl Counted {
-    /// Sum of both counts.
+    /// Sum of the results of two searches. Keeps the first violation.
     #[must_use]
     pub fn and(self, other: Counted) -> Counted {
         Counted {
@@ -93,7 +93,8 @@ impl std::fmt::Display for Counted {
 }
 
 impl Trace {
-    /// Calls `check` with every state that a cut after `cuts` operations could leave. An error of `check` means a broken promise.
+    /// Calls `check` with every state that a power cut could leave, at each number of operations in `cuts`. An error of `check` means a broken
+    /// promise.
     pub fn each_state(
         &self,
         cuts: Range<usize>,

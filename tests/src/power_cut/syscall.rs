@@ -12,7 +12,7 @@ pub(super) struct Call {
     pub(super) begun: usize,
 }
 
-/// Joins the halves of calls that another thread interrupted in the trace.
+/// Joins the two lines of a call that another thread interrupted in the trace.
 #[derive(Debug, Default)]
 pub(super) struct Lexer {
     unfinished: HashMap<String, (String, usize)>,

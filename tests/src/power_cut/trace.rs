@@ -8,17 +8,18 @@ use super::model::Disk;
 use super::operation::Operation;
 use super::tree::{Tree, read_tree};
 
-/// Supported calls, and calls that must not touch the watched folder because the trace omits their bytes.
+/// System calls to trace: the supported ones, and those that must not touch the watched folder, because the trace does not show the bytes that they
+/// write.
 const TRACED: &str = "trace=open,openat,openat2,creat,close,close_range,dup,dup2,dup3,fcntl,lseek,\
     write,pwrite64,writev,pwritev,pwritev2,ftruncate,truncate,fallocate,\
     copy_file_range,sendfile,splice,mmap,io_uring_setup,\
     rename,renameat,renameat2,link,linkat,symlink,symlinkat,unlink,unlinkat,rmdir,mkdir,mkdirat,mknod,mknodat,\
     fsync,fdatasync,sync_file_range,sync,syncfs,chdir,fchdir,clone,clone3,fork,vfork";
 
-/// Reason for a missing trace.
+/// Reason why there is no trace.
 #[derive(Debug)]
 pub enum TraceError {
-    /// `strace` is missing or may not trace here: the test may skip, and must report it.
+    /// `strace` is missing, or has no permission to trace. The test may then skip itself, and must report this.
     NoStrace(String),
     /// An unsupported call touched the watched folder, or model and disk differ.
     Unfollowed(String),
@@ -44,7 +45,7 @@ pub struct Trace {
     pub operations: Vec<Operation>,
     /// Exit status of the program.
     pub status: ExitStatus,
-    /// Standard error of the program.
+    /// Text that the program wrote to standard error.
     pub complaint: String,
 }
 
@@ -105,7 +106,7 @@ impl Trace {
         })
     }
 
-    /// The watched folder after the first `count` operations, as after a killed process.
+    /// The watched folder after the first `count` operations, as if the program had been killed then.
     pub fn after(&self, count: usize) -> Disk {
         let mut disk = self.initial.clone();
         self.operations[..count]
@@ -115,7 +116,7 @@ impl Trace {
     }
 }
 
-/// First path that differs.
+/// First path whose content differs between `expected` and `found`.
 fn first_difference<'a>(expected: &'a Tree, found: &'a Tree) -> Option<&'a String> {
     let mut paths = expected.keys().chain(found.keys());
     paths.find(|path| expected.get(*path) != found.get(*path))

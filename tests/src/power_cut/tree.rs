@@ -1,4 +1,4 @@
-//! Content of a folder, as a value.
+//! Content of a folder in memory.
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -1,15 +1,15 @@
 //! Comments that mark generated passages.
 
-/// Kind of a passage: the occasion on which it is compared with a new run of its command.
+/// Kind of a passage. It determines when the passage is compared with a new run of its command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// In every test run: takes seconds.
+    /// The command takes seconds: every test run compares the passage.
     Quick,
-    /// Only by `renew --check`: takes minutes.
+    /// The command takes minutes: only `renew --check` compares the passage.
     Slow,
-    /// Never: the output contains times.
+    /// The output contains times: the passage is never compared.
     Times,
-    /// By `renew --check`, if `TACEVA_DATA` names the recordings.
+    /// The command reads recordings: `renew --check` compares the passage if `TACEVA_DATA` names them.
     Data,
 }
 
@@ -30,7 +30,7 @@ impl Kind {
 pub enum Mark {
     /// Start of a passage, with its command.
     From {
-        /// Occasion of the comparison.
+        /// Kind of the passage, which determines when it is compared.
         kind: Kind,
         /// The command.
         command: String,

@@ -10,7 +10,7 @@ const CLOSE: &str = "-->";
 /// A generated passage.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Passage {
-    /// Occasion of the comparison.
+    /// Kind of the passage, which determines when it is compared.
     pub kind: Kind,
     /// Command of the passage.
     pub command: String,
@@ -26,7 +26,7 @@ struct Placed {
     range: Range<usize>,
 }
 
-/// Byte ranges of fenced blocks, in which comments are plain text.
+/// Byte ranges of fenced blocks. Comments in such a block mark no passage.
 fn fences(text: &str) -> Vec<Range<usize>> {
     let (mut found, mut open, mut at) = (Vec::new(), None, 0);
     for line in text.split_inclusive('\n') {
@@ -114,8 +114,8 @@ impl Passage {
         &text[self.range.clone()]
     }
 
-    /// Text of the passage after its command printed `output`: a word within a sentence, unchanged text within a fence, otherwise separate
-    /// lines.
+    /// New text of the passage after its command printed `output`. A passage within a sentence is one word. In a fence, the output is unchanged;
+    /// elsewhere it is on separate lines.
     pub fn renewed(&self, text: &str, output: &str) -> String {
         let old = self.content(text);
         let lines: Vec<&str> = output.trim_end().lines().map(str::trim_end).collect();

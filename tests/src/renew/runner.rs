@@ -54,7 +54,7 @@ impl From<io::Error> for RunnerError {
 }
 
 impl Runner {
-    /// Prepares to run commands in `root`, with the programs in `programs` and its `examples` first on the path.
+    /// Prepares to run commands in the folder `root`. The path begins with the folder `programs` and the folder `examples` within it.
     ///
     /// # Errors
     /// If no output folder can be created.
@@ -66,7 +66,7 @@ impl Runner {
         })
     }
 
-    /// Output of `command`; the path `$OUT` is removed from it.
+    /// Output of `command`, without the path of the folder `$OUT`.
     ///
     /// # Errors
     /// [`RunnerError`] if the command cannot be run or fails.

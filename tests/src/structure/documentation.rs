@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::sources::Source;
 
-/// First words of a clause: such a comment paraphrases a thing that has a name.
+/// First words of comments that begin with a clause. Such a comment paraphrases a thing instead of naming it.
 const CLAUSES: [&str; 12] = [
     "How", "It", "Its", "Of", "That", "Those", "What", "Where", "Whether", "Which", "Whoever",
     "Why",
@@ -13,7 +13,7 @@ const CLAUSES: [&str; 12] = [
 /// Doc comments of one package.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Documentation {
-    /// All doc comments in product code.
+    /// Number of doc comments in product code.
     pub comments: usize,
     /// Number of comments that begin with a clause.
     pub clauses: usize,

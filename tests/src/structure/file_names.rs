@@ -1,8 +1,8 @@
-//! File names: nouns of the field instead of participles and verbs.
+//! Check of file names, which should be nouns of the field instead of participles or verbs.
 
 use super::sources::Source;
 
-/// Stems of participles and verbs.
+/// Stems of participles and verbs in file names.
 const PARTICIPLES: &[&str] = &[
     "accepted",
     "alike",

@@ -1,19 +1,19 @@
-//! Lines of code of each package.
+//! Numbers of lines of code in each package.
 
 use std::collections::BTreeMap;
 
 use super::sources::Source;
 
-/// Lines of one package.
+/// Numbers of lines of one package.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Lines {
-    /// Lines of product code that are neither blank nor comment, without tests, benches and examples.
+    /// Number of lines of product code that are neither blank nor comment, without tests, benches and examples.
     pub product: usize,
-    /// All lines of its `.rs` files.
+    /// Number of all lines in the `.rs` files of the package.
     pub all: usize,
 }
 
-/// Lines of each package.
+/// Numbers of lines of each package.
 pub fn lines(sources: &[Source]) -> BTreeMap<&str, Lines> {
     let mut found: BTreeMap<&str, Lines> = BTreeMap::new();
     for source in sources {
@@ -28,7 +28,7 @@ pub fn lines(sources: &[Source]) -> BTreeMap<&str, Lines> {
     found
 }
 
-/// Lines of `text` that are neither blank nor comment, without `#[cfg(test)]` items. Lines within a multi-line string count.
+/// Number of lines of `text` that are neither blank nor comment, without `#[cfg(test)]` items. Lines within a multi-line string count.
 fn product_lines(text: &str) -> usize {
     let mut count = 0;
     let mut lines = text.lines();

@@ -1,5 +1,4 @@
-//! Files that mention one example of a metric, a model, a check, a preset, a driver and a kind of device: the files to change for a new
-//! item.
+//! Files that mention an example of a feature, such as one metric or one driver. A developer who adds such a feature must change these files.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -41,7 +41,7 @@ fn parameters(code: &str) -> Vec<(String, Vec<String>)> {
     found
 }
 
-/// Text up to the closing bracket of an open one.
+/// Part of `text` before the bracket that closes an earlier opening bracket.
 fn balanced(text: &str) -> &str {
     let mut depth = 1_usize;
     for (at, letter) in text.char_indices() {
@@ -78,7 +78,7 @@ fn split(text: &str) -> Vec<String> {
     parts
 }
 
-/// True if the type, by value or by reference, is a tuple of two or more.
+/// True if the type, by value or by reference, is a tuple of two or more elements.
 fn is_tuple(kind: &str) -> bool {
     let kind = kind
         .trim_start_matches(['&', ' '])

@@ -12,7 +12,7 @@ struct Stop {
     function: String,
 }
 
-/// Path of one value.
+/// Path of one value through the program.
 #[derive(Debug)]
 pub struct Walk {
     /// Heading of the path.
@@ -26,7 +26,7 @@ impl Walk {
         self.stops.len()
     }
 
-    /// Number of stops in a file that the value left before.
+    /// Number of stops in a file that the value had already left before.
     pub fn returns(&self) -> usize {
         let mut left = BTreeSet::new();
         let mut returns = 0;

@@ -7,29 +7,29 @@ use taceva_dataset::Dataset;
 
 use super::OnTheWire;
 
-/// Greatest differences between two recordings of the same presses, and between the scores of both.
+/// Greatest differences between two recordings of the same presses, and between their scores.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Compared {
-    /// Number of samples of both.
+    /// Number of samples in each recording.
     pub samples: usize,
     /// Greatest difference of depths, mm.
     pub depth_mm: f64,
     /// Greatest difference of a force component, N.
     pub force_n: f64,
-    /// Greatest difference of a picture sample, in 8-bit steps.
+    /// Greatest difference of a pixel value, in 8-bit steps.
     pub shade: u8,
-    /// Number of scores of both.
+    /// Number of scores that both studies have.
     pub scores: usize,
-    /// Scores of only one study: R² is defined for two labels that differ through link noise, and undefined for two equal ones.
+    /// Scores that only one of the studies has. An example is R² of two labels, which is undefined if link noise does not make them differ.
     pub of_one_alone: BTreeSet<String>,
     /// Greatest relative difference of the errors `mae` and `smape`.
     pub error_part: f64,
-    /// Greatest relative difference of the errors behind `r2` and `skill`, √(1 − score). The unexplained part, 1 − score, is a ratio of squares: its relative
-    /// change is twice the change of the error. The value has little meaning for few labels with a small spread.
+    /// Greatest relative difference of √(1 − score) of the scores `r2` and `skill`. This root is proportional to the error of the predictions. The
+    /// value has little meaning for few labels with a small spread.
     pub share_part: f64,
 }
 
-/// Compares the run on the wire with the simulated one.
+/// Compares the run with emulated devices to the simulated run.
 ///
 /// # Panics
 /// If a recording cannot be read or the presses differ, which ends the test.

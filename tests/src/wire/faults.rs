@@ -9,12 +9,12 @@ use taceva_wire::{ArmFault, BenchOptions, Device, Fault, FaultKind, ServeOptions
 use super::{HaltTimes, LateCounts, OnTheWire, RUN, UnderWay, scene_of};
 use crate::random::Random;
 
-/// A fault.
+/// Fault to inject in a case.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Wrong {
     /// Fault of a link, for a duration.
     Link(Device, FaultKind, Duration),
-    /// Fault of the arm, until a person repairs it.
+    /// Fault of the robot, until a person clears it.
     Arm(ArmFault),
 }
 
@@ -23,20 +23,20 @@ pub enum Wrong {
 pub enum Outcome {
     /// No effect: the study continues.
     Unharmed,
-    /// The arm is stopped within this time, ms, and the study continues by itself.
+    /// The robot is stopped within this time, ms, and the study continues by itself.
     Stopped(u64),
-    /// The study may end and can be resumed; the arm is stopped within this time, ms, if that is required.
+    /// The study may end and can be resumed. If a time in ms is given, the robot is stopped within this time.
     MayEnd(Option<u64>),
-    /// The study ends, and nothing moves any more.
+    /// The study ends, and the robot does not move any more.
     Left,
 }
 
-/// A fault to play.
+/// A fault to inject, with the required outcome.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
     /// Name of the case.
     pub name: &'static str,
-    /// Fault.
+    /// Fault to inject.
     pub wrong: Wrong,
     /// Required outcome.
     pub outcome: Outcome,
@@ -44,10 +44,10 @@ pub struct Case {
 
 /// Age from which a reading is stale, ms.
 const STALE_MS: u64 = 50;
-/// Allowance for the machine and the arm, ms.
+/// Extra time that the machine and the robot may take, ms.
 const SLACK_MS: u64 = 25;
-/// Time from a frozen signal to a standing arm, ms of motion: eight readings, each after a new position of the tip, which an arm reports
-/// 100 times per second, and the time of a halt.
+/// Time of motion from a frozen force signal until the robot stands, ms. Detection takes eight readings, each at a new pose, and the robot reports
+/// 100 poses per second.
 const FROZEN_MS: u64 = 100;
 
 const fn link(device: Device, kind: FaultKind, lasts_ms: u64) -> Wrong {
@@ -108,7 +108,7 @@ pub const CASES: [Case; 24] = {
 pub struct Played {
     /// Number of repetitions.
     pub times: usize,
-    /// Times from the fault to the last motion before its end, without time at rest, ms, ascending.
+    /// Time for which the robot moved during each fault, ms, ascending.
     pub stopped_ms: Vec<f64>,
     /// Number of studies started.
     pub studies: usize,
@@ -118,32 +118,32 @@ pub struct Played {
     pub late: LateCounts,
     /// Halts of motions, as the studies counted them.
     pub halts: HaltTimes,
-    /// Greatest load average of a minute, at the start and end of each study; `None` if the system does not state it.
+    /// Greatest one-minute load average at the start or end of a study; `None` if the system does not state it.
     pub load: Option<f64>,
-    /// Forbidden outcomes.
+    /// Descriptions of forbidden outcomes.
     pub broken: Vec<String>,
 }
 
 impl Played {
-    /// Greatest time to a stop, ms; 0 if there is none.
+    /// Greatest time for which the robot moved during a fault, ms; 0 without faults.
     pub fn most_ms(&self) -> f64 {
         self.stopped_ms.last().copied().unwrap_or_default()
     }
 
-    /// Median time to a stop, ms; 0 if there is none.
+    /// Median time for which the robot moved during a fault, ms; 0 without faults.
     pub fn median_ms(&self) -> f64 {
         let middle = self.stopped_ms.len() / 2;
         self.stopped_ms.get(middle).copied().unwrap_or_default()
     }
 
-    /// 99.9 % quantile of the times to a stop, ms: the greatest time if there are fewer than 1000. 0 without times.
+    /// 99.9 % quantile of the times for which the robot moved during a fault, ms. Of fewer than 1000 times, it is the greatest; 0 without faults.
     pub fn most_but_one_in_1000_ms(&self) -> f64 {
         let over = self.stopped_ms.len() / 1000;
         let quantile = self.stopped_ms.iter().rev().nth(over);
         quantile.copied().unwrap_or_default()
     }
 
-    /// Notes the present load average.
+    /// Updates the greatest load average with the present one.
     fn look_at_load(&mut self) {
         let text = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
         let minute = text.split(' ').next();
@@ -151,7 +151,7 @@ impl Played {
         self.load = self.load.into_iter().chain(load).reduce(f64::max);
     }
 
-    /// Checks that at most one halt in 1000 was late. A fault of the robot's link delays the answer to its halt.
+    /// Checks that at most one halt in 1000 was late. Does nothing for faults of the robot's link, because they delay the answer to a halt.
     fn check_halts(&mut self, case: &Case) {
         let late = self.halts.late.total();
         let is_robots = matches!(case.wrong, Wrong::Link(Device::Robot, ..));
@@ -169,7 +169,7 @@ fn presses_of(times: usize) -> usize {
     times.clamp(3, 12)
 }
 
-/// Most resumptions beyond the faults that may end a study; more mean no progress.
+/// Number of early ends of a study beyond the number of faults, from which the study makes no progress.
 const MOST_ENDS: usize = 60;
 /// Observation time of an arm that must not move.
 const LOOKED_AT: Duration = Duration::from_millis(300);
@@ -184,7 +184,7 @@ fn scene(presses: usize) -> String {
     changed
 }
 
-/// Plays `case` as often as `times`, at moments drawn from `seed`.
+/// Injects the fault of `case` as often as `times` states, at moments drawn from `seed`.
 ///
 /// # Panics
 /// If the devices or the program cannot be started, which ends the test.
@@ -203,7 +203,7 @@ pub fn play(case: &Case, times: usize, seed: u64) -> Played {
 }
 
 impl Played {
-    /// Plays with one study until it has every press, or is left in place.
+    /// Injects faults during one study and its resumptions, until the study has every press or the robot must not move any more.
     fn play_study(&mut self, case: &Case, times: usize, on: &OnTheWire, random: &mut Random) {
         let mut ends = 0;
         loop {
@@ -257,7 +257,7 @@ impl Played {
         }
     }
 
-    /// Injects the fault and measures the time of the last motion before its end. True if nothing may move from now on.
+    /// Injects the fault, and measures for how long the robot moves while the fault lasts. Returns true if nothing may move from now on.
     fn strike(&mut self, case: &Case, on: &OnTheWire) -> bool {
         let bench = on.served.bench();
         self.times += 1;
@@ -291,7 +291,7 @@ impl Played {
         false
     }
 
-    /// Checks that nothing moves: neither while the study ends, nor when somebody resumes it.
+    /// Checks that the robot does not move, neither while the study ends nor when it is resumed.
     fn is_still(&mut self, on: &OnTheWire, is_well: bool) {
         let bench = on.served.bench();
         if is_well {
@@ -366,7 +366,7 @@ fn wait_for_motion(on: &OnTheWire, study: &mut UnderWay, pause: Duration) -> boo
     study.ended().is_none()
 }
 
-/// Presses that a recording of `expected` presses lacks or has twice, if any.
+/// Description of the presses that `recording` lacks or has twice, of `expected` presses; `None` if it has each once.
 fn lacks(recording: &Dataset, expected: usize) -> Option<String> {
     let samples = recording.table().samples();
     let presses: BTreeSet<&str> = samples

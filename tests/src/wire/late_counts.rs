@@ -1,32 +1,32 @@
 //! Late turns of the guard, stale readings and halts, as studies print them.
 
-/// Counts by cause. The struct gets no further field.
+/// Counts of late events by cause. The struct gets no further field.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LateCounts {
-    /// The kernel woke the guard late, or kept it from a processor.
+    /// Number of events for which the kernel woke the guard late, or kept it from a processor.
     pub kernel: u64,
-    /// The work of the program or of a driver took too long.
+    /// Number of events for which the program or a driver worked too long.
     pub program: u64,
-    /// A device or its link was late.
+    /// Number of events for which a device or its link was late.
     pub device: u64,
-    /// The kernel does not state the cause.
+    /// Number of events for which the kernel does not state the cause.
     pub unknown: u64,
 }
 
-/// Halts of motions. The struct gets no further field.
+/// Number and durations of halts of motions. The struct gets no further field.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HaltTimes {
     /// Number of halts.
     pub halts: u64,
     /// Longest call of a driver's halt, ms.
     pub call_ms: f64,
-    /// Longest time to rest that reports of the robot showed, ms.
+    /// Longest time from the decision to halt until the robot reported rest, ms.
     pub rest_ms: f64,
     /// Late halts by cause.
     pub late: LateCounts,
 }
 
-/// Starts of three lines: counts of a session, halts of a session, and one miss.
+/// Start of the line with the counts of late events in a session. [`HALTS`] starts the line about halts, and [`ONE`] a line about one late event.
 const COUNTS: &str = "taceva: late in this session: ";
 const HALTS: &str = "taceva: halts in this session: ";
 const ONE: &str = "taceva: late: ";
@@ -53,12 +53,12 @@ impl LateCounts {
         }
     }
 
-    /// Number of misses.
+    /// Number of late events, over all causes.
     pub fn total(&self) -> u64 {
         self.kernel + self.program + self.device + self.unknown
     }
 
-    /// Lines about single misses in the output of a study.
+    /// Lines in the output of a study that describe one late event each.
     pub fn lines(said: &str) -> impl Iterator<Item = &str> {
         said.lines().filter(|line| line.starts_with(ONE))
     }

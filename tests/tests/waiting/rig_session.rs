@@ -1,4 +1,4 @@
-//! Sessions of the program on emulated controllers, through sockets: wrong axes and a second run on the same rig are rejected.
+//! Tests of the program on emulated controllers, over sockets. A rig with wrong axes, and a second run on the same rig, are rejected.
 
 use std::fs;
 use std::time::{Duration, Instant};
@@ -7,7 +7,7 @@ use taceva_tests::wire::{OnTheWire, RUN, UnderWay, finished, scene_of};
 use taceva_wire::{BenchOptions, ServeOptions};
 
 const SEED: u64 = 7;
-/// Most restarts of a run that a busy machine halted because of late readings.
+/// Maximum number of restarts of a run that was halted because a busy machine delayed readings.
 const PATIENCE: usize = 5;
 const RIGHT: &str = "axes = [\"x\", \"-y\", \"-z\"]";
 

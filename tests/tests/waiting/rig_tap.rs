@@ -1,4 +1,4 @@
-//! `taceva rig tap` over sockets: known link latencies are measured and written to the rig file.
+//! Tests that `taceva rig tap` measures known latencies of links over sockets, and writes them to the rig file.
 
 use std::fs;
 use std::process::Output;
@@ -9,16 +9,17 @@ use taceva_tests::wire::{OnTheWire, scene_of};
 use taceva_wire::{BenchOptions, Device, RobotKind, ServeOptions};
 
 const SEED: u64 = 7;
-/// Emulated latency of messages, ms.
+/// Emulated latency of force readings, ms. [`CAMERA_MS`] is the latency of frames, ms.
 const FORCE_MS: f64 = 20.0;
 const CAMERA_MS: f64 = 60.0;
-/// Tolerance of measured latencies, ms: frames of 25 Hz are drawn and encoded while others compile, and the force is read every 5 ms.
+/// Tolerance of the measured force latency, ms; [`CAMERA_OFF_MS`] is for the camera. The machine may be busy, frames come at 25 Hz, and force
+/// readings every 5 ms.
 const FORCE_OFF_MS: f64 = 4.0;
 const CAMERA_OFF_MS: f64 = 15.0;
-/// Most repetitions of taps that a busy machine scattered or delayed.
+/// Maximum number of repetitions of taps that failed because the machine was busy.
 const PATIENCE: usize = 5;
 
-/// Emulated devices with link latencies.
+/// Emulated devices whose messages have the known latencies.
 fn lagging(robot: RobotKind) -> OnTheWire {
     let options = ServeOptions {
         robot,

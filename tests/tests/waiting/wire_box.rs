@@ -1,4 +1,5 @@
-//! Studies with a Net F/T box that turns, delays and drifts: its page says so, hides it, or the drift is too great.
+//! Studies with a Net F/T box that rotates the frame of its forces, filters and drifts. Its settings page states this or hides it, or the drift is
+//! too great.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -14,25 +15,25 @@ use crate::wire_faults::alone;
 
 const SEED: u64 = 7;
 const PRESSES: usize = 6;
-/// Most restarts of a run that a busy machine ended because of late readings.
+/// Maximum number of restarts of a run that ended because a busy machine delayed readings.
 const PATIENCE: usize = 6;
-/// Drift of the zero, N a minute.
+/// Drift of the force zero, N a minute.
 const DRIFT_N_MIN: f64 = 0.02;
-/// Greatest difference of a force component, as a part of the greatest force of the study.
+/// Maximum difference between the force components of two studies, relative to the greatest force.
 const FORCE_PART: f64 = 0.02;
-/// Greatest difference of a recorded depth from that of the gel.
+/// Maximum difference between a recorded depth and the true depth, mm.
 const DEPTH_ERROR_MM: f64 = 0.02;
-/// Height at which the tip is between two presses, interval of looks at it, and greatest distance of a sheared sample from the place of its press.
+/// Height above which the tip is between two presses, mm. The tip is observed every [`LOOK`], and a sample belongs to a press within [`NEAR_MM`], mm.
 const IN_AIR_MM: f64 = -0.5;
 const LOOK: Duration = Duration::from_millis(5);
 const NEAR_MM: f64 = 1.0;
-/// Axes of a transducer in the base frame, and those after a quarter turn about its x axis.
+/// Axes of a transducer in the base frame. [`TURNED`] states them after a quarter turn about the x axis.
 const OWN: &str = "axes = [\"x\", \"-y\", \"-z\"]";
 const TURNED: &str = "axes = [\"x\", \"z\", \"-y\"]";
-/// Readings of a filtered box are 32 ms old when they arrive, and stale at 50 ms.
+/// Remark with the command for these tests. A filtered reading is 32 ms old when it arrives, and is rejected at 50 ms.
 const HOW: &str = "readings may come 15 ms late at most: TACEVA_REQUIRE=quiet-machine cargo test -p taceva-tests --test tests wire_box::";
 
-/// A box with a tool frame a quarter turn about x, and the strongest usual low pass of 5 Hz: 32 ms late.
+/// Settings of a box that rotates its frame by a quarter turn about x, and has a low pass of 5 Hz. This filter delays readings by 32 ms.
 const BENT: Setup = Setup {
     tool: [0.0, 0.0, 0.0, 90.0, 0.0, 0.0],
     filter: 8,
@@ -40,7 +41,8 @@ const BENT: Setup = Setup {
     ..Setup::PLAIN
 };
 
-/// Emulated devices with such a box. `force` is added to the table of the transducer, and `arguments` to its driver.
+/// Emulated devices with a Net F/T box with the settings `setup`. `force` is added to the transducer's table in the rig file, and `arguments` to its
+/// driver.
 fn served(setup: Setup, axes: &str, arguments: &str, force: &str) -> OnTheWire {
     let options = ServeOptions {
         force: ForceKind::Netft,
@@ -64,7 +66,7 @@ fn served(setup: Setup, axes: &str, arguments: &str, force: &str) -> OnTheWire {
     on
 }
 
-/// Runs the study to its end, and resumes it if the machine was too busy. Returns the error of any other end.
+/// Runs the study to its end, and resumes it if the machine was too busy. Returns the error if the study ends for any other reason.
 fn ended(on: &OnTheWire) -> Result<(), String> {
     for _ in 0..PATIENCE {
         match finished(on.study()) {
@@ -76,14 +78,14 @@ fn ended(on: &OnTheWire) -> Result<(), String> {
     Err("the machine is too busy".to_owned())
 }
 
-/// Deepest place of a press, as the gel knows it.
+/// Deepest point of a press, as the simulated gel records it.
 #[derive(Clone, Copy, Debug)]
 struct Touch {
     at_mm: [f64; 2],
     depth_mm: f64,
 }
 
-/// Runs the study to its end, and looks at the gel meanwhile.
+/// Runs the study to its end, and observes the simulated gel meanwhile. Returns the result and the presses.
 fn watched(on: &OnTheWire) -> (Result<(), String>, Vec<Touch>) {
     let bench = on.served.bench();
     std::thread::scope(|scope| {
@@ -96,7 +98,7 @@ fn watched(on: &OnTheWire) -> (Result<(), String>, Vec<Touch>) {
     })
 }
 
-/// Deepest places of the tip between two ways through the air, until the sender of `is_over` is dropped.
+/// Deepest point of the tip for each press, between two motions above the gel. Ends when the sender of `is_over` is dropped.
 fn touches(bench: &WallBench, is_over: &Receiver<()>) -> Vec<Touch> {
     let mut found = Vec::new();
     let mut deepest: Option<Touch> = None;
@@ -116,7 +118,7 @@ fn touches(bench: &WallBench, is_over: &Receiver<()>) -> Vec<Touch> {
     found
 }
 
-/// Greatest difference of a recorded depth from that of the gel, mm. Infinite if the gel was not touched there.
+/// Maximum difference between a recorded depth and the true depth at the same place, mm. Infinite if the gel was not pressed there.
 fn depth_error_mm(on: &OnTheWire, touches: &[Touch]) -> f64 {
     let errors = labels(on, ["Px", "Py", "Pz"])
         .into_values()
@@ -131,7 +133,7 @@ fn depth_error_mm(on: &OnTheWire, touches: &[Touch]) -> f64 {
     errors.fold(0.0, f64::max)
 }
 
-/// Labels of each sample, by its name.
+/// Values of the three channels `names` in each sample, by sample name.
 fn labels(on: &OnTheWire, names: [&str; 3]) -> BTreeMap<String, [f64; 3]> {
     let recording = on.recording(RUN);
     let table = recording.table();

@@ -1,12 +1,12 @@
-//! A study over real sockets equals the one simulated in the program. `TACEVA_WIRE_PRESSES=60` compares scores too.
+//! Tests that a study over real sockets equals the same study simulated in the program. `TACEVA_WIRE_PRESSES=60` also compares the scores.
 
 use taceva_tests::wire::{OnTheWire, RUN, compare, finished, scene_of};
 use taceva_wire::{BenchOptions, ServeOptions};
 
 const SEED: u64 = 7;
-/// Presses of the default test, which takes a minute and a half.
+/// Number of presses of the default test, which takes a minute and a half.
 const FEW: usize = 10;
-/// Fewest presses for a comparison of scores.
+/// Minimum number of presses for a comparison of scores.
 const WHOLE: usize = 60;
 const DEPTH_APART_MM: f64 = 5e-5;
 const FORCE_APART_N: f64 = 2e-3;

@@ -1,7 +1,7 @@
-//! Camera of any rate, to measure the limit of a capture: `cargo run -p taceva-wire --example camera -- 60 640 480`.
+//! Camera with any frame rate, to measure the limit of a capture: `cargo run -p taceva-wire --example camera -- 60 640 480`.
 //!
-//! Prints the address of its stream, and serves it until its standard input ends. Pictures are drawn beforehand, as JPEG of quality 90:
-//! noise over a slow light and a moving dark disc, like a touched gel.
+//! Prints the address of its stream, and serves the stream until its standard input ends. The pictures are drawn before the start, as JPEG of quality
+//! 90. They show noise, a slowly changing light, and a moving dark disc like a pressed gel.
 
 use std::error::Error;
 use std::io::{Read, Write};

@@ -1,10 +1,11 @@
 //! Measures the time from a force above its limit until the arm stands, over sockets: `trips [TIMES] [SPEED]`, by default 20 at 5 mm/s.
 //!
-//! One uninterrupted motion into the gel; a thread reads the transducer 200 times per second and halts the arm at 0.5 N. The times depend
-//! on this machine and its load, for an arm without a braking distance. The allowed distance is the speed times the time of 999 trips in
-//! 1,000. `chrt -f 10 target/debug/examples/trips 1000` sets the priority that docs/rig.md names.
+//! In each trip, the tip moves into the gel. A thread reads the transducer 200 times per second and halts the arm at 0.5 N. The times depend on the
+//! machine and its load; the emulated arm has no braking distance. The allowed distance is the speed times the stop time that 999 of 1,000 trips
+//! keep. `chrt -f 10 target/debug/examples/trips 1000` sets the priority that docs/rig.md names.
 //!
-//! Exits with 1 if a trip ended without a halt. Also if more than 1 trip in 1,000 takes longer than 50 ms or exceeds the allowed distance.
+//! Exits with 1 if a trip ended without a halt. Also exits with 1 if more than 1 trip in 1,000 takes longer than 50 ms or exceeds the allowed
+//! distance.
 
 use std::error::Error;
 use std::net::Ipv4Addr;
@@ -17,12 +18,12 @@ use taceva_drivers::{Drivers, open};
 use taceva_wire::{Arm, BenchOptions, WallBench, sri, xarm};
 
 const LIMIT_N: f64 = 0.5;
-/// Interval between readings.
+/// Interval between readings of the transducer.
 const PERIOD: Duration = Duration::from_millis(5);
 const PHASES: u32 = 16;
 /// Longest allowed time from the exceeded limit to a standing arm, ms.
 const LATEST_MS: f64 = 50.0;
-/// Interval at which the truth is observed, ms.
+/// Interval at which the bench records the true state, ms.
 const LOOK_MS: f64 = 1.0;
 const PATIENCE: Deadline = Deadline::after(Duration::from_secs(20));
 

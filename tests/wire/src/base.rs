@@ -1,4 +1,4 @@
-//! Pose of the sensor on the table of the robot.
+//! Pose of the sensor in the base frame of the robot.
 
 use taceva_core::{Degree, Millimetre, Point, Pose, Rotation};
 
@@ -29,12 +29,13 @@ impl Base {
         std::array::from_fn(|axis| Base::SIGNS[axis] * (base_mm[axis] - Base::ORIGIN_MM[axis]))
     }
 
-    /// Converts a force between the sensor's frame and the frame of a transducer with the axes of the base frame, in either direction.
+    /// Converts a force from the sensor's frame to the frame of a transducer, or back. The axes of the transducer are those of the base frame.
     pub fn turn(force_n: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|axis| Base::SIGNS[axis] * force_n[axis])
     }
 
-    /// Pose in the sensor's frame of a tool at `base_mm`, rotated by `yaw_rad` about the base's z axis.
+    /// Converts the pose of a tool to the sensor's frame. The tool is at `base_mm` in the base frame, mm, rotated by `yaw_rad` about the base's z
+    /// axis.
     pub(crate) fn pose(base_mm: [f64; 3], yaw_rad: f64) -> Pose {
         let [x, y, z] = Base::to_sensor(base_mm).map(Millimetre);
         Pose {

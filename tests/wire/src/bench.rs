@@ -32,21 +32,21 @@ struct Inner {
 pub struct Truth {
     /// Position of the tip in the sensor's frame, mm.
     pub tip_mm: [f64; 3],
-    /// Force on the gel in the sensor's frame, N; 0 under a board.
+    /// Force on the gel in the sensor's frame, N; 0 while a board is mounted.
     pub force_n: [f64; 3],
-    /// Depth of a ball below the true surface of the gel, mm; 0 without contact and under a board.
+    /// Depth of a ball below the true surface of the gel, mm; 0 without contact, and while a board is mounted.
     pub depth_mm: f64,
     /// True while the tip moves.
     pub is_moving: bool,
     /// Length of the tip's path since the start of the bench, mm.
     pub way_mm: f64,
-    /// Time in motion since the start of the bench.
+    /// Time for which the tip was in motion since the start of the bench.
     pub in_motion: Duration,
-    /// Time of the last observed motion, since the start of the bench.
+    /// Time at which the tip was last seen in motion, since the start of the bench.
     pub moved: Duration,
     /// Time of the last observation.
     looked: Duration,
-    /// Greatest z of the tip since the last reset, mm.
+    /// Greatest depth coordinate of the tip (z, into the gel) since the last reset, mm.
     pub deepest_mm: f64,
     /// Monitored limit of the normal force, N; `None` if no limit is monitored.
     pub limit_n: Option<f64>,
@@ -204,8 +204,8 @@ impl WallBench {
         self.inner.faults.put(fault);
     }
 
-    /// Sets a known latency: every message that `device` streams from now on arrives later by `lag`, in order. Links of ATI boxes and of
-    /// G-code machines have no latency.
+    /// Sets a known latency. Each message that `device` streams from now on arrives later by `lag`, in the same order. Streams of ATI boxes and of
+    /// G-code machines ignore it.
     pub fn set_lag(&self, device: Device, lag: Duration) {
         self.inner.faults.set_lag(device, lag);
     }

@@ -41,7 +41,7 @@ pub enum ForceKind {
 /// Served devices, and their addresses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ServeOptions {
-    /// The gel.
+    /// Options of the simulated gel.
     pub bench: BenchOptions,
     /// Robot over the gel.
     pub robot: RobotKind,
@@ -49,18 +49,18 @@ pub struct ServeOptions {
     pub force: ForceKind,
     /// Settings of a Net F/T box.
     pub netft: netft::Setup,
-    /// Loopback address.
+    /// Loopback address on which the servers listen.
     pub host: Ipv4Addr,
-    /// True for the ports that public clients expect, false for any free ports.
+    /// True to listen on the ports that public clients expect, false to listen on any free ports.
     pub uses_usual_ports: bool,
     /// Firmware version reported by the xArm controller.
     pub firmware: [u32; 3],
-    /// True if the rig file names the lossless stream.
+    /// True if the rig file names the camera's stream of lossless pictures.
     pub is_lossless: bool,
 }
 
 impl ServeOptions {
-    /// An xArm, a box of SRI and a lossless camera over the gel of `bench`, on free ports.
+    /// Options for an xArm, a box of SRI and a lossless camera over the gel of `bench`, on free ports.
     pub fn over(bench: BenchOptions) -> ServeOptions {
         ServeOptions {
             bench,
@@ -163,7 +163,7 @@ impl Served {
         &self.bench
     }
 
-    /// The robot, for faults from outside.
+    /// The robot, for injecting faults such as an emergency stop.
     pub fn arm(&self) -> &dyn Arm {
         &*self.arm
     }

@@ -30,7 +30,7 @@ use crate::error::WireError;
 use crate::fault::{Arm, ArmFault, Device, Fault, FaultKind};
 use crate::server::{End, Server};
 
-/// Request.
+/// Request on the control port.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 enum Request {
@@ -94,10 +94,10 @@ const LINE_MAX: u64 = 4096;
 const USUAL_SECONDS: f64 = 1.0;
 /// Maximum latency, ms.
 const LAG_MAX_MS: f64 = 1e3;
-/// Maximum travel of a jog along each axis, mm, and its speed, mm/s.
+/// Maximum travel of a jog along each axis, mm. The speed is [`JOG_MM_S`], mm/s.
 const JOG_MAX_MM: f64 = 100.0;
 const JOG_MM_S: f64 = 20.0;
-/// Interval between looks at the end of a jog.
+/// Interval between checks whether a jog has ended.
 const LOOK: Duration = Duration::from_millis(5);
 /// Maximum duration of a fault, s.
 const SECONDS_MAX: f64 = 3600.0;
@@ -213,7 +213,7 @@ fn answer(line: &[u8], bench: &WallBench, arm: Option<&dyn Arm>) -> Result<Value
     Ok(json!({}))
 }
 
-/// Moves the tip as a pendant would, and waits until it rests.
+/// Moves the tip as a person with the robot's pendant would, and waits until the tip rests.
 fn jog(by_mm: [f64; 3], bench: &WallBench) -> Result<(), WireError> {
     let refused = WireError::Request;
     if let Some(mm) = by_mm.iter().find(|mm| mm.abs() > JOG_MAX_MM) {

@@ -1,4 +1,4 @@
-//! Errors of the bench.
+//! Errors of the emulated devices and their simulated gel.
 
 use std::io;
 use std::path::PathBuf;
@@ -22,7 +22,7 @@ pub enum WireError {
     /// A thread does not start.
     #[error("cannot start a thread: {0}")]
     Thread(io::Error),
-    /// Parameters of no valid gel.
+    /// The parameters describe no valid gel.
     #[error("the parameters of the gel, {0}")]
     Parameters(#[from] ParameterError),
     /// The camera cannot be created.

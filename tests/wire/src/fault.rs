@@ -5,7 +5,7 @@ use std::fmt;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Device of a link.
+/// Device whose link can have faults.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Device {
     /// The robot: its answers and its reports.
@@ -52,12 +52,12 @@ pub enum ArmFault {
     Collision,
 }
 
-/// An emulated arm, for faults from outside.
+/// An emulated arm in which tests can cause faults.
 pub trait Arm: Send + Sync {
     /// Applies a fault to the arm.
     fn suffer(&self, fault: ArmFault);
 
-    /// Driver selector with its arguments.
+    /// Selector of the driver for this arm, with its arguments.
     fn selector(&self) -> String;
 }
 

@@ -1,8 +1,8 @@
 //! Emulated machine with GRBL 1.1 at the other end of a pseudo-terminal.
 //!
-//! Supported queries: `?` with the work offset in some reports, `!`, `~`, reset, `$$`, `$#`, `$G`, `$I`, `$X`. Supported lines: `G53 G1` (with `G21 G90 G94`,
-//! with and without blanks) and modes alone. The machine stores one motion in progress and one waiting motion. A reset during a motion is an alarm. Not
-//! supported: changes of settings, offsets, arcs, homing, acceleration.
+//! The machine supports the queries `?` (with the work offset in some reports), `!`, `~`, reset, `$$`, `$#`, `$G`, `$I` and `$X`. Supported lines are
+//! `G53 G1` (with `G21 G90 G94`, with or without blanks), and modes alone. The machine stores one motion in progress and one waiting motion. A reset
+//! during a motion causes an alarm. Changes of settings, offsets, arcs, homing and acceleration are not supported.
 
 use std::fs::File;
 use std::io::{Read, Write};
@@ -38,7 +38,7 @@ struct Inside {
     is_alarmed: bool,
     /// Number of status reports since the last reset.
     reports: u32,
-    /// Held or waiting motion.
+    /// Motion that waits for the motion in progress, or that a hold has interrupted.
     waiting: Option<Motion>,
     /// Motion in progress.
     current: Option<Motion>,
@@ -62,7 +62,7 @@ const NOT_IDLE: &str = "error:8\r\n";
 const NO_FEED: &str = "error:22\r\n";
 /// Number of status reports per report of the work offset. The first report contains the offset.
 const OFFSET_EVERY: u32 = 10;
-/// Settings of a machine of 400 mm with 5 m/min.
+/// Settings of a machine with a travel of 400 mm and a speed of 5 m/min.
 const SETTINGS: &[&str] = &[
     "$0=10",
     "$1=25",
@@ -99,7 +99,7 @@ const SETTINGS: &[&str] = &[
     "$131=400.000",
     "$132=400.000",
 ];
-/// Offsets of the works, which are all zero.
+/// Work offsets and tool offsets, which are all zero.
 const OFFSETS: &[&str] = &[
     "[G54:0.000,0.000,0.000]",
     "[G55:0.000,0.000,0.000]",
@@ -313,7 +313,7 @@ impl Machine {
         !inside.is_alarmed && (inside.is_held || inside.current.is_some())
     }
 
-    /// Answer to a query or a command after `$`.
+    /// Answer to a query or a command that begins with `$`.
     fn answer(&self, query: &str) -> String {
         let lines =
             |lines: &[&str]| -> String { lines.iter().map(|line| format!("{line}\r\n")).collect() };

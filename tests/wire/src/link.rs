@@ -21,9 +21,9 @@ pub(crate) struct Link {
 
 /// A message of another protocol.
 const FOREIGN: &[u8] = b"HTTP/1.1 400 Bad Request\r\nContent-Length: 0\r\n\r\n";
-/// Number of messages merged into one.
+/// Number of messages that are sent together under the fault [`FaultKind::Merged`].
 const MERGED: usize = 4;
-/// Number of pieces of a split message, with a pause between pieces.
+/// Number of pieces in which a message is sent under the fault [`FaultKind::Split`], with a pause after each piece.
 const PIECES: usize = 5;
 const BETWEEN_PIECES: Duration = Duration::from_micros(200);
 
@@ -85,10 +85,7 @@ impl Link {
         Ok(())
     }
 
-    /// Waits until `until`, and delivers delayed messages.
-    ///
-    /// # Errors
-    /// Error of `write`.
+    /// Waits until the time `until` since the start of the bench, and delivers delayed messages.
     pub(crate) fn rest_until(
         &mut self,
         bench: &WallBench,
@@ -134,7 +131,7 @@ mod tests {
     use crate::fault::Fault;
     use crate::options::BenchOptions;
 
-    /// Writes for eight messages of ten bytes under `kind`.
+    /// Bytes of each write when eight messages of ten bytes are sent under the fault `kind`.
     fn written(kind: Option<FaultKind>) -> Vec<Vec<u8>> {
         let bench = WallBench::start(&BenchOptions::quiet(1)).expect("a bench");
         if let Some(kind) = kind {

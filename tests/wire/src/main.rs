@@ -29,8 +29,8 @@ struct Arguments {
     /// Camera pixels per frame pixel, along x and y.
     #[arg(long, default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=64))]
     reduction: u32,
-    /// No errors, drift or relaxation, as with `quiet` of the simulated sensors, and lossless pictures: for comparisons with a study
-    /// simulated in the program.
+    /// No errors, drift or relaxation, as with `quiet` of the simulated sensors, and lossless pictures. Use it for comparisons with a study simulated
+    /// in the program.
     #[arg(long)]
     quiet: bool,
     /// Stream PNG, which is lossless.
@@ -42,16 +42,16 @@ struct Arguments {
     /// Use the ports that public clients expect (502, 30001 to 30003, 4008) instead of any free ones.
     #[arg(long)]
     usual_ports: bool,
-    /// Firmware version that the controller reports.
+    /// Firmware version that the xArm controller reports.
     #[arg(long, default_value = "2.7.0", value_parser = firmware)]
     firmware: Firmware,
     /// Tool frame of the Net F/T box: displacement along x, y, z in mm and rotation about them in degrees, separated by semicolons.
     #[arg(long, default_value = "0;0;0;0;0;0", value_parser = tool)]
     tool: Tool,
-    /// Number of the Net F/T box's low pass: 0 for none, up to 8 for 5 Hz.
+    /// Number of the Net F/T box's low pass filter: 0 for none, up to 8 for 5 Hz.
     #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=8))]
     filter: u8,
-    /// Drift of the Net F/T box's zero, N a minute.
+    /// Drift of the Net F/T box's zero, in N per minute.
     #[arg(long, default_value_t = 0.0)]
     drift: f64,
     /// File to write the rig file to.
@@ -62,7 +62,7 @@ struct Arguments {
 #[derive(Clone, Copy, Debug)]
 struct Firmware([u32; 3]);
 
-/// Tool frame of a box.
+/// Tool frame of a Net F/T box.
 #[derive(Clone, Copy, Debug)]
 struct Tool([f64; 6]);
 

@@ -1,8 +1,8 @@
 //! Emulated printer with Marlin 2 at the other end of a pseudo-terminal.
 //!
-//! Supported: queued `G0` and `G1` (with `G21 G90`, with some coordinates or all, with and without blanks), line numbers and checksums with
-//! requests to resend. Supported too: `M105` without heaters, `M110`, `M114` with the planned position, `M115`, `M118`, `M400`, immediate
-//! `M410`. Not supported: heating, homing, acceleration, lost steps.
+//! The printer supports queued `G0` and `G1`, with `G21 G90`, some or all coordinates, and with or without blanks. It supports line numbers and
+//! checksums, and asks to resend damaged lines. Other commands are `M105` without heaters, `M110`, `M114` with the planned position, `M115`, `M118`,
+//! `M400` and immediate `M410`. Heating, homing, acceleration and lost steps are not supported.
 
 use std::collections::VecDeque;
 use std::fs::File;
@@ -30,11 +30,11 @@ pub struct Emulator {
 /// Firmware build of an emulated printer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Firmware {
-    /// Accepts a stop during a motion.
+    /// Executes a stop at once, even during a motion.
     StopsAtOnce,
-    /// Executes a stop after earlier commands.
+    /// Executes a stop only after all commands that it received before.
     StopsInTurn,
-    /// Does not know `M118`.
+    /// Does not know the echo command `M118`.
     WithoutEcho,
 }
 
@@ -50,7 +50,7 @@ struct Inside {
     is_killed: bool,
     current: Option<Motion>,
     waiting: VecDeque<Motion>,
-    /// Last feed, mm/min, which later motions keep; `None` before the first.
+    /// Last feed rate, mm/min, which later motions keep; `None` before the first.
     feed: Option<f64>,
     /// Number of the last numbered line.
     last_line: i64,
@@ -58,7 +58,7 @@ struct Inside {
     damaged: u32,
     /// Line that will be lost; `None` if no line will be lost.
     lost: Option<String>,
-    /// Commands received while an earlier command waits for the motions.
+    /// Commands received while an earlier command waits for all motions to end.
     lines: VecDeque<String>,
 }
 
@@ -89,7 +89,7 @@ impl Emulator {
         Ok(Emulator { printer, line })
     }
 
-    /// Damages the next numbered lines.
+    /// Damages the next `lines` numbered lines.
     pub fn damage(&self, lines: u32) {
         self.printer.inside().damaged = lines;
     }
@@ -160,7 +160,7 @@ impl Printer {
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Ends a completed motion, begins the next, and executes commands that waited for the motions.
+    /// Ends a completed motion, begins the next, and executes commands that waited for the motions to end. Returns their answers.
     fn turn(&self) -> String {
         let mut inside = self.inside();
         if inside.is_killed {
@@ -184,7 +184,7 @@ impl Printer {
         answers
     }
 
-    /// Handles a received line; commands after a waiting one are answered later.
+    /// Handles a received line and returns the answers. If an earlier command still waits, the new command is stored and answered later.
     fn take(&self, line: &str) -> String {
         let mut inside = self.inside();
         if inside.is_killed || line.is_empty() {

@@ -27,15 +27,15 @@ pub struct Emulator {
 /// Delimiters and lengths of the parts of a stream, which differ between servers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
-    /// Boundary in the header, and a length for each part.
+    /// The header states the boundary, and each part its length.
     Usual,
-    /// Like `ffmpeg -f mpjpeg`: another content type without a boundary in the header, and HTTP/1.1 chunks.
+    /// Like `ffmpeg -f mpjpeg`: another content type, no boundary in the header, and chunks of HTTP/1.1.
     Ffmpeg,
-    /// Boundary in the header, no lengths.
+    /// The header states the boundary, and no part states its length.
     Lengthless,
 }
 
-/// Delimiter of two parts.
+/// Delimiter between two parts of the stream.
 const BOUNDARY: &str = "taceva-frame";
 /// Head of a part with a length beyond any memory.
 const HOSTILE: &[u8] =
@@ -133,7 +133,7 @@ fn serve(mut stream: TcpStream, bench: &WallBench, style: Style, end: &End) -> i
     Ok(())
 }
 
-/// Path of a client's request.
+/// Path in a client's request; `None` if the client sent no complete request.
 fn requested(stream: &mut TcpStream, end: &End) -> Option<String> {
     let mut request = Vec::new();
     let mut bytes = [0; 1024];
@@ -152,7 +152,7 @@ fn requested(stream: &mut TcpStream, end: &End) -> Option<String> {
     (words.next() == Some("GET")).then(|| words.next().map(str::to_owned))?
 }
 
-/// A picture with its delimiter, `lines` and its length.
+/// Part of a stream: the delimiter, the header lines `lines`, the length if `style` has it, and the picture.
 fn part(picture: &[u8], lines: &str, style: Style) -> Vec<u8> {
     let length = match style {
         Style::Usual | Style::Ffmpeg => format!("Content-length: {}\r\n", picture.len()),
@@ -173,7 +173,7 @@ fn part(picture: &[u8], lines: &str, style: Style) -> Vec<u8> {
     }
 }
 
-/// Encodes the picture.
+/// Encodes a picture as PNG or JPEG.
 fn encode(pixels: &[u8], info: FrameInfo, is_png: bool) -> Result<Vec<u8>, ImageError> {
     let colour = match info.format {
         PixelFormat::Gray8 => ExtendedColorType::L8,

@@ -1,7 +1,7 @@
 //! Emulated Net F/T box of ATI: records over UDP, and the page with its settings.
 //!
-//! Supported: start with a count of records, stop, bias, a tool frame, low passes, one client at a time (the last one). Not supported:
-//! buffered transfers, other pages, the TCP command port.
+//! The box supports start with a count of records, stop, bias, a tool frame and low pass filters. It serves one client at a time: the last one.
+//! Buffered transfers, other pages and the TCP command port are not supported.
 
 mod setup;
 
@@ -19,7 +19,7 @@ use crate::error::WireError;
 use crate::fault::{Device, FaultKind};
 use crate::server::{End, Server};
 
-/// Emulated box that listens until drop.
+/// Emulated Net F/T box that listens until drop.
 #[derive(Debug)]
 pub struct Emulator {
     records: SocketAddr,
@@ -90,7 +90,7 @@ impl Emulator {
         })
     }
 
-    /// Driver selector with its arguments.
+    /// Selector of the driver for this box, with its arguments.
     pub fn selector(&self) -> String {
         let [records, page] = [self.address(), self.page_address()];
         format!(
@@ -111,7 +111,7 @@ impl Emulator {
         self.records
     }
 
-    /// Address of the page.
+    /// Address of the page with the settings.
     pub fn page_address(&self) -> SocketAddr {
         self.pages.address()
     }
@@ -140,7 +140,7 @@ fn serve_page(mut stream: TcpStream, page: &str) -> io::Result<()> {
     stream.write_all(answer.as_bytes())
 }
 
-/// Client of the records, and the number of records that it still gets; `None` for an endless request.
+/// Client of the records, and the number of records that it still gets; `None` if it asked for records without end.
 struct Client {
     to: SocketAddr,
     left: Option<u32>,
@@ -235,10 +235,10 @@ impl Sender {
     }
 }
 
-/// Status bits: an error, and a gauge at the end of its range.
+/// Status bit of an error. [`SATURATED`] is the bit of a gauge at the end of its range.
 const ERROR: u32 = 1 << 31;
 const SATURATED: u32 = 1 << 17;
-/// Increment of the number when numbers are skipped.
+/// Increment of the record number under the fault that skips numbers.
 const SKIPPED: u32 = 7;
 /// A datagram of another protocol.
 const FOREIGN: &[u8] = b"HTTP/1.1 400 Bad Request\r\nContent-Length: 0\r\n";

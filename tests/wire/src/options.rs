@@ -1,23 +1,23 @@
-//! Options of the bench.
+//! Options of the simulated gel.
 
 use taceva_sim::{Model, ParameterError, Parameters};
 
-/// Sensor of the bench, and the size of its errors.
+/// Sensor type of the simulated gel, and the size of its errors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BenchOptions {
-    /// The sensor.
+    /// Model of the sensor.
     pub model: Model,
     /// Seed of all random errors.
     pub seed: u64,
-    /// True for no errors, drift or relaxation, as with the argument `quiet` of the simulated sensors. A study over sockets can then be
-    /// compared with one simulated in the program.
+    /// True to simulate no errors, drift or relaxation, like the argument `quiet` of simulated sensors. Studies over sockets and in the program can
+    /// then be compared.
     pub is_quiet: bool,
     /// Camera pixels per frame pixel, along x and y.
     pub reduction: u32,
 }
 
 impl BenchOptions {
-    /// A GelSight with the errors of the simulated bench.
+    /// Options for a GelSight with the errors of the simulated bench.
     pub fn noisy(seed: u64) -> BenchOptions {
         BenchOptions {
             model: Model::GelSight,
@@ -27,7 +27,7 @@ impl BenchOptions {
         }
     }
 
-    /// A GelSight without errors.
+    /// Options for a GelSight without errors.
     pub fn quiet(seed: u64) -> BenchOptions {
         BenchOptions {
             is_quiet: true,
@@ -35,7 +35,7 @@ impl BenchOptions {
         }
     }
 
-    /// Parameters of this bench.
+    /// Parameters of the simulated gel with these options.
     pub(crate) fn parameters(&self) -> Result<Parameters, ParameterError> {
         match self.is_quiet {
             true => Parameters::parse_quiet(self.model.table()),

@@ -1,17 +1,17 @@
-//! Place and rotation of the tool, and their composition.
+//! Position and rotation of a tool, and operations on them.
 
 use taceva_core::single;
 
-/// Place and rotation of one frame in another.
+/// Position and rotation of one frame relative to another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Placement {
     pub(crate) at_mm: [f64; 3],
-    /// Rows of the rotation.
+    /// Rows of the rotation matrix.
     pub(crate) rows: [[f64; 3]; 3],
 }
 
 impl Placement {
-    /// Frame at x, y and z in mm, turned about the fixed x, y and z by roll, pitch and yaw in rad.
+    /// Creates a frame from x, y and z in mm, and roll, pitch and yaw in rad about the fixed x, y and z axes.
     pub(crate) fn of_pose(pose: [f32; 6]) -> Placement {
         let [x, y, z, roll, pitch, yaw] = pose.map(f64::from);
         let [(sr, cr), (sp, cp), (sy, cy)] = [roll, pitch, yaw].map(f64::sin_cos);
@@ -25,7 +25,7 @@ impl Placement {
         }
     }
 
-    /// Frame at x, y and z in mm, turned by a rotation vector in rad.
+    /// Creates a frame from x, y and z in mm, and a rotation vector in rad.
     pub(crate) fn of_rotation_vector(pose: [f32; 6]) -> Placement {
         let [x, y, z, rotation @ ..] = pose.map(f64::from);
         let angle = length(rotation);
@@ -40,7 +40,7 @@ impl Placement {
         }
     }
 
-    /// The place in mm with roll, pitch and yaw in rad.
+    /// Position in mm, with roll, pitch and yaw in rad.
     pub(crate) fn pose(&self) -> [f32; 6] {
         let [[r00, ..], [r10, r11, r12], [r20, r21, r22]] = self.rows;
         let level = r00.hypot(r10);
@@ -55,7 +55,7 @@ impl Placement {
         [x, y, z, roll, pitch, yaw].map(single)
     }
 
-    /// The place in mm with a rotation vector in rad.
+    /// Position in mm, with a rotation vector in rad.
     pub(crate) fn rotation_vector(&self) -> [f32; 6] {
         let skew = self.skew();
         let sin = length(skew);
@@ -71,7 +71,7 @@ impl Placement {
         [x, y, z, rx, ry, rz].map(single)
     }
 
-    /// The axis of a turn above 90°, from the symmetric part of its matrix, which is exact at a half turn too.
+    /// Unit axis of a rotation by more than 90°. It follows from the symmetric part of the rotation matrix, which is accurate up to 180°.
     fn axis_of_a_wide_turn(&self, cos: f64) -> [f64; 3] {
         let rows = &self.rows;
         let products = square(|row, column| {
@@ -90,13 +90,13 @@ impl Placement {
         axis.map(|part| if along < 0.0 { -part } else { part })
     }
 
-    /// Sine of the turn times its axis.
+    /// Axis of the rotation, multiplied by the sine of its angle.
     fn skew(&self) -> [f64; 3] {
         let [[_, r01, r02], [r10, _, r12], [r20, r21, _]] = self.rows;
         [r21 - r12, r02 - r20, r10 - r01].map(|part| part / 2.0)
     }
 
-    /// The frame `inner`, which is placed in this frame.
+    /// The frame `inner`, which is given in this frame, expressed in the base of this frame.
     pub(crate) fn then(&self, inner: &Placement) -> Placement {
         let moved = self.turned(inner.at_mm);
         Placement {
@@ -105,7 +105,7 @@ impl Placement {
         }
     }
 
-    /// This frame, moved and turned by `by` along and about the axes of its base.
+    /// This frame, moved and rotated by `by`. The motion is along and about the axes of the base.
     pub(crate) fn moved_by(&self, by: &Placement) -> Placement {
         Placement {
             at_mm: std::array::from_fn(|axis| self.at_mm[axis] + by.at_mm[axis]),
@@ -113,7 +113,7 @@ impl Placement {
         }
     }
 
-    /// Vector from this place to the place of `other`, mm, then the rotation vector from this rotation to the other, rad. Valid for small turns.
+    /// Difference of `other` from this frame: the displacement, mm, and the rotation vector, rad. Valid for small rotations.
     pub(crate) fn apart(&self, other: &Placement) -> [f64; 6] {
         let back = Placement {
             at_mm: [0.0; 3],
@@ -149,7 +149,7 @@ fn length([x, y, z]: [f64; 3]) -> f64 {
     x.hypot(y).hypot(z)
 }
 
-/// Entry of the matrix that crosses `axis` with a vector.
+/// Entry of the matrix that multiplies a vector by `axis` in a cross product.
 fn crossing(axis: [f64; 3], row: usize, column: usize) -> f64 {
     match (3 + column - row) % 3 {
         1 => -axis[3 - row - column],

@@ -1,4 +1,4 @@
-//! Listening ports: one thread per port and per client, and their ends.
+//! Listening ports: one thread for each port and for each client, and the flag that ends these threads.
 
 use std::io;
 use std::net::{Ipv4Addr, SocketAddr, SocketAddrV4, TcpListener, TcpStream};

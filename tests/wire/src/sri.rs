@@ -1,7 +1,8 @@
 //! Emulated interface box of SRI: commands and a stream of frames on one port.
 //!
-//! Supported: queries of the decoupling matrix and its unit, rate, checksums by sum and CRC32, engineering units, start, stop and zero. Zero is
-//! not answered while the box streams, as public drivers report. Not supported: counts, several readings per frame, persistent settings.
+//! The box supports queries of the decoupling matrix and its unit, and commands for rate, checksums (sum or CRC32), engineering units, start, stop
+//! and zero. Zero is not answered while the box streams, as public drivers report. Counts, several readings per frame, and persistent settings are
+//! not supported.
 
 mod session;
 
@@ -11,7 +12,7 @@ use crate::bench::WallBench;
 use crate::error::WireError;
 use crate::server::{End, Server};
 
-/// Emulated box that listens until drop.
+/// Emulated interface box of SRI that listens until drop.
 #[derive(Debug)]
 pub struct Emulator {
     server: Server,
@@ -38,7 +39,7 @@ impl Emulator {
         })
     }
 
-    /// Driver selector with its arguments.
+    /// Selector of the driver for this box, with its arguments.
     pub fn selector(&self) -> String {
         let address = self.address();
         format!(

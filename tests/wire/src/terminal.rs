@@ -11,7 +11,7 @@ use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
 use crate::error::WireError;
 use crate::server::End;
 
-/// Machine's end of a raw line, and the path of the host's end.
+/// Opens a pseudo-terminal in raw mode. Returns the emulated device's end, and the path of the host's end.
 fn pseudo_terminal() -> io::Result<(File, String)> {
     let end = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY)?;
     grantpt(&end)?;
@@ -25,19 +25,19 @@ fn pseudo_terminal() -> io::Result<(File, String)> {
     Ok((File::from(end), path))
 }
 
-/// A serial line served by a machine, unplugged on drop.
+/// A serial line served by an emulated machine, unplugged on drop.
 #[derive(Debug)]
 pub(crate) struct ServedLine {
     path: String,
-    /// End of the machine.
+    /// Flag that ends the thread of the emulated machine.
     end: End,
     thread: Option<JoinHandle<()>>,
-    /// Host's end, held open so that the line exists while no host uses it.
+    /// Host's end of the line. The open file keeps the line alive while no host uses it.
     _line: File,
 }
 
 impl ServedLine {
-    /// Runs `serve` at the machine's end, in a thread called `name`, until the end.
+    /// Runs `serve` at the emulated machine's end, in a thread called `name`, until this value is dropped.
     ///
     /// # Errors
     /// [`WireError`] if the system provides no pseudo-terminal or no thread.
@@ -66,7 +66,7 @@ impl ServedLine {
         })
     }
 
-    /// Path for the host.
+    /// Path at which the host opens the line.
     pub(crate) fn path(&self) -> &str {
         &self.path
     }

@@ -1,6 +1,6 @@
-//! Emulated HID devices, which the kernel offers under `/dev/hidraw*`; they need access to `/dev/uhid`.
+//! Emulated HID devices, which the kernel offers under `/dev/hidraw*`. They need access to `/dev/uhid`.
 //!
-//! Supported: a report descriptor, and reports on request of a test. Not supported: USB, and reports from a program to the device.
+//! A device has a report descriptor, and sends reports when a test asks for it. USB, and reports from a program to the device, are not supported.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -11,11 +11,11 @@ use crate::error::WireError;
 /// Emulated device, unplugged on drop.
 #[derive(Debug)]
 pub struct Emulator {
-    /// Closing this file removes the device.
+    /// File of the device. Closing this file removes the device.
     uhid: File,
 }
 
-/// Identity of a device.
+/// Name, numbers and report descriptor of a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Identity {
     /// Name of the device.
@@ -61,7 +61,8 @@ pub const PEDAL: Identity = Identity {
     ],
 };
 
-/// Event numbers of `/dev/uhid`, and text sizes in the event that creates a device (`linux/uhid.h`).
+/// Number of the event of `/dev/uhid` that creates a device; [`INPUT`] is the event of a report. The others are text sizes, bytes, and the bus number
+/// of USB (`linux/uhid.h`).
 const CREATE: u32 = 11;
 const INPUT: u32 = 12;
 const NAME: usize = 128;

@@ -1,10 +1,10 @@
 //! Emulated controller of Universal Robots: the real-time data exchange (port 30004), script (ports 30002 and 30003) and the dashboard (port 29999).
 //!
-//! Supported outputs and inputs: the outputs of a version by name (zeros for values that are not simulated), registers and the speed slider.
-//! Supported commands: `movel` to a pose, `speedl` for a time (without rotation), `stopl` after a register number, safety stops,
-//! the script of one public client, questions at the dashboard. Digital and analog outputs are accepted and ignored. Not supported: other inputs and
-//! script, inputs in use by another client, the states of port 30003, programs of the dashboard, acceleration. A motion of the joints
-//! goes straight, by the kinematics of a UR5.
+//! The data exchange has the outputs of the stated version by name (zeros for values that are not simulated), registers, and the speed slider. Script
+//! programs may contain `movel` to a pose, `speedl` for a time (without rotation), and `stopl` after a register number. The script of one public
+//! client is also supported, and so are safety stops and questions at the dashboard. Digital and analog outputs are accepted and ignored. Other
+//! inputs and programs, inputs in use by another client, the states of port 30003, programs of the dashboard, and acceleration are not supported. A
+//! motion of the joints moves the tip straight, by the kinematics of a UR5.
 
 mod controller;
 mod dashboard;
@@ -32,23 +32,23 @@ pub struct Emulator {
     controller: Arc<Controller>,
     states: Server,
     script: Server,
-    /// Second port for script, which some clients use.
+    /// Server of the second port for script programs, which some clients use.
     realtime: Server,
     dashboard: Server,
 }
 
-/// Ports that clients expect: data exchange, and script.
+/// Ports that clients expect: for the data exchange, and for script programs.
 pub const USUAL_PORTS: [u16; 2] = [30_004, 30_002];
 /// Port of the dashboard that clients expect.
 pub const USUAL_DASHBOARD_PORT: u16 = 29_999;
-/// Second port for script that clients expect.
+/// Second port for script programs that clients expect.
 pub const USUAL_REALTIME_PORT: u16 = 30_003;
 /// Maximum length of a program, bytes. The script of a public client has 42 kB.
 const PROGRAM_MAX: usize = 1 << 16;
 
 impl Emulator {
-    /// Starts an arm over the gel of `bench`: switched on, 20 mm above it; port 0 selects any free port. The dashboard and the second port
-    /// for script have their usual ports if both others have theirs, and otherwise any free ones.
+    /// Starts an arm over the gel of `bench`, switched on and 20 mm above it. `ports` are those of the data exchange and of script programs; port 0
+    /// selects any free port. If both are [`USUAL_PORTS`], the other two servers also have their usual ports.
     ///
     /// # Errors
     /// [`WireError`] if the server cannot listen on a port.
@@ -103,7 +103,7 @@ impl Emulator {
         })
     }
 
-    /// Sets the speed slider, 0.01 to 1, which slows all later motions and is an output.
+    /// Sets the speed slider, 0.01 to 1. The slider slows all later motions, and clients can read it.
     pub fn set_slider(&self, slider: f64) {
         self.controller.set_slider(slider.clamp(0.01, 1.0));
     }

@@ -33,20 +33,20 @@ impl Words {
         Some(Words(words))
     }
 
-    /// Number behind `letter`, if the line has it.
+    /// Number after `letter`, if the line has it.
     pub(crate) fn number(&self, letter: char) -> Option<f64> {
         let word = self.0.iter().find(|word| word.letter == letter)?;
         Some(word.number)
     }
 
-    /// True for the command `letter` with `number`, which may be written as `G1` or `G01`.
+    /// True if the line contains the command `letter` with `number`, which may be written as `G1` or `G01`.
     pub(crate) fn has(&self, letter: char, number: u32) -> bool {
         let wanted = f64::from(number);
         let mut words = self.0.iter().filter(|word| word.letter == letter);
         words.any(|word| (word.number - wanted).abs() < 1e-9)
     }
 
-    /// Numbers of all words `letter`.
+    /// Numbers of all words that begin with `letter`.
     pub(crate) fn all(&self, letter: char) -> impl Iterator<Item = f64> {
         let words = self.0.iter().filter(move |word| word.letter == letter);
         words.map(|word| word.number)

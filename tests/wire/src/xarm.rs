@@ -1,10 +1,10 @@
 //! Emulated control box of UFACTORY: commands on port 502, reports on 30001, 30002 and 30003.
 //!
-//! Supported motions: queued straight motions (absolute, relative, in the tool frame, with rotation vectors, both layouts), motions of
-//! the joints, checks, expiring velocities of the tip. Supported too: versions, enabling, modes, states, poses, errors and their clearing,
-//! messages at the end of a motion. Not supported: servo motions, velocities with rotation, blending, limits of jerk, braking distances.
-//! A motion of the joints goes straight, by the kinematics of an xArm 6. Speeds outside the limits of the rich report are changed without
-//! an error. An unknown register is answered with "result invalid".
+//! The box supports queued straight motions: absolute, relative, in the tool frame, with rotation vectors, and in both message layouts. It supports
+//! motions of the joints, checks of motions, and velocities of the tip that expire. It also supports queries of versions and poses, enabling, modes,
+//! states, errors and their clearing, and messages at the end of a motion. Servo motions, velocities with rotation, blending, limits of jerk, and
+//! braking distances are not supported. A motion of the joints moves the tip straight, by the kinematics of an xArm 6. Speeds outside the limits of
+//! the rich report are changed without an error. An unknown register is answered with "result invalid".
 
 mod answer;
 mod client;
@@ -50,7 +50,7 @@ pub enum Port {
 /// Addresses of the ports; 0 selects any free port.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ports {
-    /// Loopback address.
+    /// Loopback address on which the servers listen.
     pub host: Ipv4Addr,
     /// Port of commands.
     pub command: u16,
@@ -74,7 +74,7 @@ impl Ports {
         rich: 0,
         firmware: [2, 7, 0],
     };
-    /// Ports that clients expect; few users may bind 502.
+    /// Ports that clients expect. Many systems reserve port 502 for privileged users.
     pub const USUAL: Ports = Ports {
         command: 502,
         pose: Some(30_003),

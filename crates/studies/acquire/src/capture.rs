@@ -42,7 +42,7 @@ pub use predictor::{LivePredictor, PredictionCounts};
 pub use preview::preview;
 use streams::Streams;
 
-/// Number of frames in one durable batch.
+/// Number of frames that are written to disk together.
 const TOGETHER: usize = 8;
 
 /// Settings of a capture.
@@ -50,13 +50,13 @@ const TOGETHER: usize = 8;
 pub struct CaptureRequest {
     /// Folder of the recording. It must not exist yet.
     pub path: PathBuf,
-    /// Facts of the sensor.
+    /// Description of the sensor for the header of the recording.
     pub sensor: SensorFacts,
     /// Duration of the capture by the time stamps of frames; `None` records until the capture is cancelled.
     pub lasts: Option<Duration>,
     /// Number of frames to record; `None` records until the capture is cancelled.
     pub frames: Option<u64>,
-    /// Rig file of all devices, whose axes and latencies the recording stores; `None` if selectors name the devices.
+    /// Rig file that describes all devices; `None` if selectors name the devices. The recording stores the axes and latencies in this file.
     pub rig: Option<RigFile>,
     /// Settings `operator` and `laboratory` of the recording. They replace the settings of the rig file.
     pub stated: BTreeMap<String, String>,
@@ -73,7 +73,7 @@ pub struct Onlookers<'a> {
 }
 
 impl<'a> Onlookers<'a> {
-    /// Neither viewer nor predictor.
+    /// Creates onlookers with neither a viewer nor a predictor.
     pub fn none() -> Onlookers<'a> {
         Onlookers::default()
     }
@@ -85,7 +85,7 @@ impl<'a> Onlookers<'a> {
 pub enum CaptureStage {
     /// Measurement of the force zero and of the frame without contact. Nothing may touch the gel.
     Zeroing,
-    /// Recording frames.
+    /// Frames are being recorded. The value is the progress so far.
     Recording(CaptureState),
 }
 
@@ -101,13 +101,13 @@ pub struct CaptureState {
     pub stream: StreamFacts,
     /// Number of contacts that have begun.
     pub contacts: u64,
-    /// Number of frames without a force, if the capture has a transducer.
+    /// Number of frames without a known force; 0 without a transducer.
     pub without_force: u64,
-    /// Number of frames before the first reading. They have no force.
+    /// Number of frames before the first force reading. They have no force.
     pub before_force: u64,
-    /// Number of frames between readings that are too far apart. They have no force.
+    /// Number of frames between two force readings that are too far apart. They have no force.
     pub in_force_gaps: u64,
-    /// Number of frames that were not followed by a reading in time. They have no force.
+    /// Number of frames after which no force reading arrived in time. They have no force.
     pub late_force: u64,
     /// Normal force at the last frame, in N; `None` if it is unknown.
     pub normal_n: Option<f64>,

@@ -54,7 +54,7 @@ pub enum AcquireError {
     Acquisition {
         /// Name of the study.
         study: String,
-        /// Cause of the stop, and the place of the tip.
+        /// Cause of the stop, and the position of the robot's tip.
         source: Box<RunError>,
     },
     /// A device of a capture or a preview did not open.
@@ -115,7 +115,7 @@ pub enum AcquireError {
         /// Selector of the device.
         device: String,
     },
-    /// The taps do not determine the latency. The tip was raised again.
+    /// The latency cannot be measured from taps of the tip on the gel. The tip was raised again.
     #[error(
         "{}: {source}; nothing was written, and the tip is 1 mm above the gel",
         taceva_core::shown(rig)
@@ -126,7 +126,7 @@ pub enum AcquireError {
         /// Reason why the taps failed.
         source: TapError,
     },
-    /// The request cannot be fulfilled, or the operator stopped.
+    /// The request cannot be fulfilled, or the operator stopped the command.
     #[error("{0}")]
     Request(String),
 }

@@ -28,7 +28,7 @@ pub(crate) fn of_rig(rig: &RigFile) -> Vec<Traceability> {
     [force, robot, sensor].into_iter().flatten().collect()
 }
 
-/// Instruments to store in a recording. A serial number that a driver reports in `settings` replaces the written serial number.
+/// Instruments to store in a recording. A serial number that a driver reports in `settings` replaces the serial number in the rig file.
 pub(crate) fn kept(
     instruments: Vec<Traceability>,
     settings: &BTreeMap<String, String>,
@@ -89,7 +89,7 @@ pub(crate) fn remedy(fault: &CertificateFault) -> String {
     )
 }
 
-/// Instrument for the device with the selector `driver`. Its serial number is the argument by which it was selected, if any.
+/// Creates the record of the instrument that `driver` selects. If the selector contains a serial number, so does the record.
 pub(crate) fn traced(
     instrument: Instrument,
     driver: &str,

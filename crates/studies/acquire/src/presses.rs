@@ -55,8 +55,8 @@ pub(crate) use tap::{TappedRig, tap_study};
 pub use workshop::{Surroundings, SurroundingsOf, Upcoming, Workshop};
 
 impl PlannedStudy {
-    /// Opens the recording that the scene names. Otherwise opens the recording at `path`, and makes the missing presses of this study. Each finished press
-    /// advances the progress.
+    /// Opens the recording that the scene names. If the scene names none, opens or creates the recording at `path`, and makes its missing presses.
+    /// Each finished press advances the progress.
     ///
     /// # Errors
     /// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device fails or the run is cancelled. Finished presses are kept, and the same call resumes

@@ -54,7 +54,7 @@ pub struct PlannedStudy {
 /// Source of the samples of a study.
 #[derive(Debug)]
 pub(crate) enum StudySource {
-    /// Devices that are given by name.
+    /// Devices that are named by their selectors.
     Rig(RigSpec),
     /// Folder of an existing recording.
     Recording(PathBuf),

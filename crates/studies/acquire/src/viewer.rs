@@ -12,7 +12,7 @@ pub trait Viewer: Send + Sync {
     fn event(&self, event: &Event);
     /// Called for each captured frame.
     fn frame(&self, frame: &Frame);
-    /// Called for each force reading, after its zero was subtracted.
+    /// Called for each force reading. The force zero is already subtracted.
     fn force(&self, wrench: &Wrench);
     /// Called for each pose of the tip, in the frame of the sensor.
     fn pose(&self, pose: &Pose);

@@ -2,7 +2,7 @@
 
 use taceva_core::random::{Draws, STEP, finalise, mix};
 
-/// Number at `index` of the stream of `seed` and `purpose`.
+/// Random number with the index `index` in the sequence that `seed` and `purpose` determine.
 pub(super) fn draw(seed: u64, purpose: u64, index: u64) -> u64 {
     let stream = mix(seed).wrapping_add(finalise(purpose.wrapping_mul(STEP)));
     Draws::new(stream).bits(index)

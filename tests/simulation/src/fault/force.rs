@@ -17,8 +17,8 @@ pub struct FaultyForce {
 }
 
 impl FaultyForce {
-    /// Wraps `inner`, called `driver`, behind a link with the faults of `plan` and the clock of `pace`. The normal force of a saturated transducer is
-    /// `full_scale`.
+    /// Wraps the transducer `inner`, whose driver key is `driver`. The link has the faults of `plan` and the clock `pace`. A saturated transducer
+    /// shows the normal force `full_scale`.
     pub fn new(
         inner: Box<dyn ForceTransducer>,
         driver: DriverKey,

@@ -10,11 +10,11 @@ pub enum FaultKind {
     Silence,
     /// The device returns the last value again, with a new stamp.
     Freeze,
-    /// The device returns NaN in a force, in a coordinate, or in the stamp of a frame, whose pixels cannot be NaN.
+    /// The device returns NaN: in a force, in a coordinate, or in the time stamp of a frame.
     NotANumber,
     /// The device returns full scale without an error. No effect on a robot, which has no full scale.
     Saturation,
-    /// The device returns a new value with the last stamp.
+    /// The device returns a new value with the time stamp of the last value.
     StaleStamp,
     /// A value is lost, and the caller receives the next value. A lost motion command has no effect.
     Drop,

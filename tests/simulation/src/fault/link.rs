@@ -7,7 +7,7 @@ use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Stamp};
 use super::{FaultKind, FaultPlan};
 use taceva_drivers::Pace;
 
-/// Link to a device.
+/// Link to a device, with the faults of a plan.
 pub(super) struct Link {
     plan: FaultPlan,
     pace: Box<dyn Pace>,
@@ -27,7 +27,7 @@ impl Link {
         }
     }
 
-    /// Counts a call and returns its fault; `None` for a call without a fault.
+    /// Counts a call to the device. Returns the fault that the plan has for this call; `None` without a fault.
     pub(super) fn next_fault(&mut self) -> Option<FaultKind> {
         let fault = self.plan.at(self.calls);
         self.calls += 1;

@@ -1,4 +1,4 @@
-//! Times of faults, which depend only on the seed and the call number.
+//! Plan of faults. The seed and the number of a call determine whether the call fails.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -40,9 +40,9 @@ enum Fault {
 /// Probability and duration of a random fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Likelihood {
-    /// Number of 1,000 calls in which a fault begins.
+    /// Mean number of calls, among 1,000, in which a fault begins.
     pub per_thousand: u32,
-    /// Duration, calls.
+    /// Number of calls that a fault lasts.
     pub calls: u32,
 }
 

@@ -19,7 +19,7 @@ pub struct FaultyRobot {
 }
 
 impl FaultyRobot {
-    /// Wraps `inner`, called `driver`, behind a link with the faults of `plan` and the clock of `pace`.
+    /// Wraps the robot `inner`, whose driver key is `driver`. The link has the faults of `plan` and the clock `pace`.
     pub fn new(
         inner: Box<dyn Robot>,
         driver: DriverKey,

@@ -16,7 +16,7 @@ pub struct FaultySensor {
 }
 
 impl FaultySensor {
-    /// Wraps `inner`, called `driver`, behind a link with the faults of `plan` and the clock of `pace`.
+    /// Wraps the sensor `inner`, whose driver key is `driver`. The link has the faults of `plan` and the clock `pace`.
     pub fn new(
         inner: Box<dyn Sensor>,
         driver: DriverKey,
@@ -86,7 +86,7 @@ impl Sensor for FaultySensor {
     }
 }
 
-/// Reborrows the frame for a second call.
+/// Borrows the buffer of a frame again, so that two calls can write to it.
 fn again<'a>(frame: &'a mut FrameMut<'_>) -> FrameMut<'a> {
     let info = frame.info();
     FrameMut::new(info, frame.bytes_mut()).expect("it had this size before")

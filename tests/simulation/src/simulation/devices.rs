@@ -1,4 +1,4 @@
-//! Devices of the simulated world, behind the driver traits.
+//! Devices of the simulated world. They implement the device traits of the drivers.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ const ROBOT: DriverKey = DriverKey::fixed("faults/robot");
 const FORCE: DriverKey = DriverKey::fixed("faults/force");
 const SENSOR: DriverKey = DriverKey::fixed("faults/sensor");
 
-/// A frame encodes the truth at its exposure: time, height of the tip and normal force.
+/// Size and format of the frames. A frame encodes the true time, tip height and normal force at its exposure.
 pub(super) const FRAME: FrameInfo = FrameInfo {
     width: 24,
     height: 1,
@@ -168,13 +168,13 @@ impl Shared {
     }
 }
 
-/// Rounding error of times in binary64, s.
+/// Times that differ by less than this are equal, s, because binary64 rounds them.
 const INSTANT_S: f64 = 1e-9;
 
 /// Force transducer of the simulated world.
 pub(super) struct SimulatedForce {
     shared: Shared,
-    /// Number of readings of the reader thread at the last take.
+    /// Number of readings of the reader thread when [`take`](SimulatedForce::take) last returned one.
     taken: u64,
 }
 
@@ -183,7 +183,8 @@ impl SimulatedForce {
         SimulatedForce { shared, taken: 0 }
     }
 
-    /// Takes the newest reading of the reader thread, for a monitored run. `None` if there is no new reading before `deadline_s`.
+    /// Returns the newest reading of the reader thread, for a run with monitoring threads. Waits at most `deadline_s`, s; `None` if no new reading
+    /// arrives.
     fn take(&mut self, deadline_s: f64) -> Option<(Wrench, Stamp)> {
         let began_s = self.shared.world().now_s;
         let until_s = began_s + deadline_s;

@@ -72,7 +72,7 @@ impl Disk {
         self.durable.truncate(length);
     }
 
-    /// Simulates a power cut. A prefix of the unsynced bytes remains, of any length, perhaps with a changed last byte.
+    /// Simulates a power cut. All synced bytes remain, and a random number of the bytes that follow. The last byte may be changed.
     pub(super) fn crash(&mut self) {
         self.crashes += 1;
         #[expect(

@@ -1,22 +1,22 @@
-//! Random numbers, each a function of seed, purpose and place.
+//! Reproducible random numbers, computed from a seed, a purpose and two indices.
 
 use taceva_core::random::{STEP, fnv_1a, mix, unit};
 
-/// A source of numbers for one purpose.
+/// A source of random numbers for one purpose.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Draws {
     key: u64,
 }
 
 impl Draws {
-    /// Numbers of `seed` for `purpose`.
+    /// Creates the source of random numbers for `purpose` from `seed`.
     pub(super) fn new(seed: u64, purpose: &str) -> Draws {
         Draws {
             key: mix(seed ^ fnv_1a(purpose.as_bytes())),
         }
     }
 
-    /// 64 random bits at `place`.
+    /// Returns the 64 random bits with the two indices `place`.
     pub(super) fn bits(self, place: [u64; 2]) -> u64 {
         mix(mix(self.key ^ place[0].wrapping_mul(STEP)) ^ place[1].wrapping_mul(STEP))
     }
@@ -26,7 +26,7 @@ impl Draws {
         least + taceva_core::random::scaled(self.bits(place), greatest - least + 1)
     }
 
-    /// Number from 0 to below 1.
+    /// Returns the random number, from 0 to below 1, with the two indices `place`.
     pub(super) fn fraction(self, place: [u64; 2]) -> f64 {
         unit(self.bits(place))
     }

@@ -33,7 +33,7 @@ pub enum FaultKind {
     EmergencyStop,
     /// Reports of the robot do not reach its monitoring thread. The robot still answers queries.
     NoReports,
-    /// The enabling switch is released, for a moment or beyond the waiting time.
+    /// The enabling switch is released, for a moment or for longer than a run waits for it.
     Released,
     /// The enabling switch cannot be read until it is plugged in again.
     Unplugged,
@@ -58,7 +58,7 @@ impl FaultKind {
         FaultKind::Released,
         FaultKind::Unplugged,
     ];
-    /// Number of kinds that every scenario draws from; later kinds are drawn separately.
+    /// Number of kinds, from the start of [`ALL`](FaultKind::ALL), among which most faults are drawn. Separate draws decide the other kinds.
     const DRAWN: u64 = 11;
 
     /// Word in reports.
@@ -119,11 +119,11 @@ struct Fault {
     until_s: f64,
 }
 
-/// Purpose of the draws for the emergency stop.
+/// Index that separates the random draws for the emergency stop from all others.
 const STOP: u64 = 90;
-/// Purpose of the draws for missing reports.
+/// Index that separates the random draws for missing reports from all others.
 const NO_REPORTS: u64 = 91;
-/// Purpose of the draws for the enabling switch.
+/// Index that separates the random draws for the enabling switch from all others.
 const SWITCH: u64 = 92;
 
 /// Faults of a scenario.
@@ -134,8 +134,8 @@ pub(super) struct Faults {
 }
 
 impl Faults {
-    /// Draws up to four faults within the first `span_s`; one seed in eight has none. One seed in eight also has an emergency stop, one in
-    /// four no reports. The enabling switch is released in every second seed and unplugged in one of four.
+    /// Draws one to four faults that begin in the first `span_s`, s; one seed in eight has none. Separately, one seed in eight has an emergency stop,
+    /// and one in four lacks reports for a time. The enabling switch is released in every second seed and unplugged in one of four.
     pub(super) fn draw(draws: Draws, span_s: f64) -> Faults {
         let whole = |least, greatest, place| draws.between(least, greatest, place);
         let count = if whole(0, 7, [0, 0]) == 0 {
@@ -184,7 +184,7 @@ impl Faults {
         }
     }
 
-    /// Fault of the enabling switch at `now_s`, and the time at which the fault began, s; `None` while a person holds the switch.
+    /// Fault because of which no person holds the enabling switch at `now_s`, and the time at which the fault began, s. `None` if the switch is held.
     pub(super) fn unheld(&self, now_s: f64) -> Option<(FaultKind, f64)> {
         let kinds = [FaultKind::Unplugged, FaultKind::Released];
         let of_kind = |kind| {
@@ -274,7 +274,7 @@ impl Faults {
     }
 }
 
-/// Draws faults of the enabling switch: released for ten milliseconds to forty seconds, short and long equally likely, or unplugged.
+/// Draws faults of the enabling switch. Each release lasts from 0.01 s to 40 s, with a uniform logarithm. The switch may also be unplugged once.
 fn of_switch(draws: Draws, span_s: f64) -> impl Iterator<Item = Fault> {
     let releases = match draws.between(0, 1, [SWITCH, 0]) {
         0 => 0,

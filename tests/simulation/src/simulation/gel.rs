@@ -1,6 +1,6 @@
 //! Gel and instruments of a simulated rig.
 
-/// Gel and instruments of one seed.
+/// Properties of the gel and of the instruments in the scenario of one seed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gel {
     pub(super) stiffness_n_mm: f64,

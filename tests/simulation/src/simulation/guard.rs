@@ -1,23 +1,23 @@
 //! Monitoring threads as events in simulated time: one reads the transducer, the other reads the robot and receives requests to stop.
 //!
-//! A thread's due time is fixed; the delay until it gets the processor is drawn. Its observations therefore reach the supervisor between any two calls of the
-//! run and during its motions. While the run uses the supervisor, a thread waits as for a lock.
+//! Each thread is due at fixed times. The delay until it gets the processor is random. Its observations therefore reach the supervisor between any
+//! two calls of the run and during its motions. While the run uses the supervisor, the threads wait.
 
 use taceva_core::{Pose, Stamp, Wrench};
 
 use super::draws::Draws;
 use taceva_protocol::{Cancel, SharedSupervisor};
 
-/// Interval between readings, and between looks at the robot, s.
+/// Interval between readings of the transducer, s. The robot is read every [`LOOK_S`], s.
 const READING_S: f64 = 0.005;
 const LOOK_S: f64 = 0.01;
-/// Longest usual wait of a thread for the processor, and longest wait in some turns, s.
+/// Longest wait of a thread for the processor in usual turns, s; [`LONG_WAIT_S`] in the others.
 const SHORT_WAIT_S: f64 = 0.000_5;
 const LONG_WAIT_S: f64 = 0.02;
-/// Share of turns with a longer wait.
+/// Share of turns with a wait of up to [`LONG_WAIT_S`].
 const LONG_OF: f64 = 1.0 / 64.0;
 
-/// Kind of thread.
+/// Monitoring thread: the reader reads the transducer, and the watcher reads the robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Thread {
     Reader,
@@ -51,7 +51,7 @@ pub(super) struct Guard {
 }
 
 impl Guard {
-    /// Threads that begin at `now_s`, with waits drawn from `draws`.
+    /// Creates the threads, which begin at `now_s`, s. Their waits are drawn from `draws`.
     pub(super) fn new(
         supervisor: SharedSupervisor,
         cancel: Cancel,
@@ -74,7 +74,7 @@ impl Guard {
         }
     }
 
-    /// Time of the next thread's turn, s.
+    /// Time of the next turn of any thread, s.
     pub(super) fn next_s(&self) -> f64 {
         self.reader_s.min(self.watcher_s)
     }

@@ -1,4 +1,4 @@
-//! Press log on the simulated disk. Records are framed and synced before they count. A torn tail is truncated.
+//! Press log on the simulated disk. A record counts once it is complete and synced. An incomplete record at the end of the log is removed.
 
 use std::collections::BTreeSet;
 
@@ -24,22 +24,22 @@ pub(super) struct EntrySample {
     pub(super) stamp_s: f64,
     pub(super) depth_mm: f64,
     pub(super) force_n: f64,
-    /// Time, height and force encoded in the frame.
+    /// Time, s, tip height, mm, and normal force, N, encoded in the frame; `None` without a frame.
     pub(super) frame: Option<[f64; 3]>,
     /// True if a limit kept the tip from the waypoint.
     pub(super) is_limited: bool,
 }
 
-/// The log.
+/// Press log on a simulated disk.
 pub(super) struct Journal<'a> {
     disk: &'a mut Disk,
     finished: BTreeSet<ContentId>,
-    /// All records acknowledged so far. The list survives the process, for comparison with the records on the disk.
+    /// Presses that this and earlier processes acknowledged. They are compared with the records on the disk.
     acknowledged: &'a mut Vec<ContentId>,
 }
 
 impl<'a> Journal<'a> {
-    /// Opens the log and truncates a torn tail.
+    /// Opens the log, and removes an incomplete record at its end.
     pub(super) fn open(disk: &'a mut Disk, acknowledged: &'a mut Vec<ContentId>) -> Journal<'a> {
         let (entries, whole) = entries(&disk.read());
         disk.cut(whole);

@@ -4,21 +4,21 @@ use std::fmt;
 
 use taceva_protocol::{RigLimits, SEGMENT_S};
 
-/// Longest time until a halt reaches the robot, s.
+/// Longest allowed time from a hazard until a halt reaches the robot, s.
 pub const HALT_WITHIN_S: f64 = 0.05;
 
 /// Violation of an invariant.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Violation {
-    /// The depth exceeds the limit and the stated overshoot.
+    /// The depth exceeds the limit by more than the stated overshoot.
     TooDeep {
         /// Depth, mm below the true first contact.
         depth_mm: f64,
         /// Largest allowed depth, mm.
         bound_mm: f64,
     },
-    /// The force exceeds the limit and the stated overshoot.
+    /// The force exceeds the limit by more than the stated overshoot.
     TooHard {
         /// True force, N.
         force_n: f64,
@@ -27,12 +27,12 @@ pub enum Violation {
     },
     /// The halt was late or missing.
     LateHalt {
-        /// Delay, s.
+        /// Delay since the hazard, s.
         after_s: f64,
         /// Hazard that required the halt.
         hazard: &'static str,
     },
-    /// The robot received this request after a reported emergency stop, or while nobody held the enabling switch.
+    /// The robot received this forbidden request: after a reported emergency stop, or while nobody held the enabling switch.
     Defied(&'static str),
     /// An acknowledged press is missing.
     Lost(String),
@@ -76,22 +76,22 @@ impl fmt::Display for Violation {
     }
 }
 
-/// Number of checks of each invariant. A zero reveals an oracle that checked nothing.
+/// Number of checks of each invariant, and extreme values. A count of 0 means that the oracle checked nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Checks {
-    /// Motions whose depth and force were compared with the limits.
+    /// Number of motions whose depth and force were compared with the limits.
     pub motions: u64,
-    /// Halts after a hazard.
+    /// Number of halts that followed a hazard.
     pub halts: u64,
-    /// Longest delay of a halt, s, without the delay that a longer segment adds.
+    /// Longest delay of a halt, s. The extra delay that long segments cause is subtracted.
     pub slowest_halt_s: f64,
-    /// Greatest true force, as a share of the greatest stated force.
+    /// Greatest ratio of the true force to the allowed force.
     pub greatest_force: f64,
     /// Greatest true depth, mm.
     pub greatest_depth_mm: f64,
-    /// Samples compared with the truth.
+    /// Number of samples compared with the truth.
     pub samples: u64,
-    /// Presses that a silent transducer interrupted and that the same process repeated.
+    /// Number of presses that a silent transducer interrupted and that the same process repeated.
     pub redone: u64,
 }
 
@@ -116,18 +116,18 @@ pub(super) const TOO_HARD: &str = "a force beyond the limit";
 /// Hazard: a robot that moves while nobody holds the enabling switch.
 pub(super) const UNHELD: &str = "an enabling switch that nobody holds";
 
-/// Limits of the rig and the stated overshoot.
+/// Limits of the rig, and the overshoot beyond these limits that the plan states.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stated {
     pub(super) depth_max_mm: f64,
     pub(super) normal_max_n: f64,
     pub(super) healthy_mm: f64,
     pub(super) frozen_mm: f64,
-    /// Delay of the declared first contact after true contact, mm: a step, and the threshold with its noise.
+    /// Depth of the true contact when the run detects contact, mm: one search step, and the indentation at the threshold force with noise.
     pub(super) late_contact_mm: f64,
     pub(super) stiffness_n_mm: f64,
     pub(super) noise_n: f64,
-    /// Extra delay until an exceeded limit is seen in a segment longer than [`SEGMENT_S`], s.
+    /// Extra time until an exceeded limit is detected, s, because a segment of motion takes longer than [`SEGMENT_S`].
     pub(super) late_look_s: f64,
 }
 
@@ -151,7 +151,8 @@ impl Stated {
         }
     }
 
-    /// Same limits, for segments at `speed_mm_s` in contact, whose length noise may have increased.
+    /// Returns the same limits for motions in contact, in segments of `segment_mm` at `speed_mm_s`. A long segment delays the detection of an
+    /// exceeded limit.
     pub(super) fn at_speed(self, speed_mm_s: f64, segment_mm: f64) -> Stated {
         Stated {
             late_look_s: (segment_mm / speed_mm_s - SEGMENT_S).max(0.0),
@@ -160,7 +161,7 @@ impl Stated {
     }
 }
 
-/// Range of the noise, as a factor. Uniform noise never exceeds its range.
+/// Greatest noise, as a multiple of half its range. Uniform noise never exceeds half its range.
 const NOISE_SPAN: f64 = 1.0;
 
 /// State at the end of a motion.
@@ -172,7 +173,7 @@ pub(super) struct Ended {
     pub(super) force_n: f64,
     /// True if the indentation grew during the motion.
     pub(super) is_inward: bool,
-    /// True if the last reading before the end had an old force.
+    /// True if the last force reading before the end repeated an old force.
     pub(super) is_frozen: bool,
 }
 
@@ -181,7 +182,7 @@ pub(super) struct Ended {
 pub(super) struct Oracle {
     stated: Stated,
     hazard: Option<(&'static str, f64)>,
-    /// True if the force exceeded the limit while the readings did not.
+    /// True if the true force exceeded the limit while the readings were old or missing.
     overlooked: bool,
     pub(super) violations: Vec<Violation>,
     pub(super) checks: Checks,
@@ -200,8 +201,8 @@ impl Oracle {
 
     /// Checks the end of a motion.
     ///
-    /// The stated overshoot limits how far the tip goes beyond a limit, so only the end of an inward motion can violate it. Afterwards the tip retreats step by
-    /// step, at first still beyond the limit. This is not a second violation.
+    /// Depth and force are compared with the limits plus the stated overshoot. Only an inward motion is checked. A tip that retreats may still be
+    /// beyond a limit, which is not a second violation.
     pub(super) fn moved(&mut self, ended: Ended) {
         let Ended {
             depth_mm, force_n, ..
@@ -237,18 +238,17 @@ impl Oracle {
         self.hazard.get_or_insert((hazard, since_s));
     }
 
-    /// Ends the hazard: the enabling switch is held, or the robot does not move.
+    /// Ends the hazard of an unheld enabling switch, because the switch is held or the robot does not move.
     pub(super) fn is_held(&mut self) {
         self.hazard.take_if(|(hazard, _)| *hazard == UNHELD);
     }
 
-    /// Records that the force limit was exceeded while the transducer showed an old force.
+    /// Records that the true force exceeded the limit while the transducer repeated an old force.
     pub(super) fn overlooked(&mut self) {
         self.overlooked = true;
     }
 
-    /// Records that the transducer gives no force or an old force, to which no supervisor can react. The depth is still limited, and missing readings are a
-    /// separate hazard.
+    /// Records that the transducer gives no force or an old force. An exceeded force limit is then no hazard, because no supervisor can see it.
     pub(super) fn blinded(&mut self) {
         let unseen = self.hazard.take_if(|(hazard, _)| *hazard == TOO_HARD);
         self.overlooked |= unseen.is_some();
@@ -259,13 +259,13 @@ impl Oracle {
         self.hazard.take_if(|(hazard, _)| *hazard == SILENCE);
     }
 
-    /// Records that the transducer shows the true force of the resting tip. Returns true if the limit was exceeded unseen, which requires a
-    /// reaction from now on.
+    /// Records that the transducer shows the true force of the resting tip. Returns true if the force limit was exceeded unseen before; a halt is
+    /// then required.
     pub(super) fn sighted(&mut self) -> bool {
         std::mem::take(&mut self.overlooked)
     }
 
-    /// Records the request `asked` after a call was rejected because of an emergency stop.
+    /// Records the forbidden request `asked` as a violation.
     pub(super) fn defied(&mut self, asked: &'static str) {
         self.violations.push(Violation::Defied(asked));
     }
@@ -290,7 +290,7 @@ impl Oracle {
         }
     }
 
-    /// Advances time. An old hazard without a halt becomes a violation.
+    /// Advances time to `now_s`. A hazard that has lacked a halt for too long becomes a violation.
     pub(super) fn passed(&mut self, now_s: f64) {
         if let Some((hazard, since_s)) = self.hazard
             && now_s - since_s > self.within_s(hazard)

@@ -1,4 +1,4 @@
-//! Comparison of the disk's final content with the planned, acknowledged and true presses.
+//! Comparison of the recorded presses on the disk with the plan, the acknowledged presses and the truth.
 
 use std::collections::BTreeSet;
 
@@ -14,14 +14,14 @@ use taceva_protocol::{Plan, PlannedPress};
 /// Rounding error of sums of lengths in binary64, mm.
 const ROUNDING_MM: f64 = 1e-6;
 
-/// Result of checking a record.
+/// Result of comparing the recorded presses.
 pub(super) struct Found {
     pub(super) violations: Vec<Violation>,
     /// Number of compared samples.
     pub(super) samples: u64,
 }
 
-/// Compares the disk's content with the planned, acknowledged and true presses.
+/// Compares the recorded presses `kept` with `plan` and the acknowledged presses, and their samples with the truth of `gel`.
 pub(super) fn judge_log(
     plan: &Plan,
     kept: &[Entry],
@@ -52,8 +52,8 @@ pub(super) fn judge_log(
     found
 }
 
-/// Violation if a retreat lacks waypoints of its approach although the plan has them. One waypoint may be missing, because a limit just below a waypoint gives
-/// the approach two samples of almost equal depth.
+/// Violation if the retreat of a press has too few samples for its approach, although the plan has waypoints in both directions. One sample may be
+/// missing: a limit just below a waypoint gives the approach two samples of almost equal depth.
 fn one_sided(planned: &PlannedPress, entry: &Entry) -> Option<Violation> {
     let waypoints = planned.press.waypoints();
     let on_way_out = |sample: &&EntrySample| {
@@ -75,7 +75,7 @@ fn one_sided(planned: &PlannedPress, entry: &Entry) -> Option<Violation> {
     })
 }
 
-/// Acknowledged presses that are missing from the file, even if they are repeated later.
+/// Violations for acknowledged presses that are missing from `file`. A later repetition of a press does not excuse its loss.
 pub(super) fn missing(file: &[u8], acknowledged: &[ContentId]) -> Vec<Violation> {
     let (kept, _) = entries(file);
     let seen = kept.iter().map(|entry| entry.press).collect();

@@ -24,10 +24,10 @@ use taceva_protocol::{
     Supervisor, Trip, plan, run, run_guarded,
 };
 
-/// Result of a seed.
+/// Result of running the scenario of one seed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimulationReport {
-    /// The seed.
+    /// Seed of the scenario.
     pub seed: u64,
     /// Violated invariants.
     pub violations: Vec<Violation>,
@@ -48,7 +48,7 @@ const REPAIR_S: f64 = 3.0;
 /// Longest wait of a run for the enabling switch, s.
 const PATIENCE_S: f64 = 20.0;
 
-/// Plays `seed` to its end.
+/// Runs the scenario of `seed` to its end.
 ///
 /// ```
 /// use taceva_simulation::simulation::simulate;
@@ -59,7 +59,7 @@ pub fn simulate(seed: u64) -> SimulationReport {
     simulate_with(seed, Sabotage::Nothing)
 }
 
-/// Same as [`simulate`], with a planted bug.
+/// Same as [`simulate`], with a bug planted in the simulated world.
 pub(super) fn simulate_with(seed: u64, sabotage: Sabotage) -> SimulationReport {
     let draws = Draws::new(seed, "faults");
     let part = |purpose| draws.fraction([purpose, 1]);
@@ -167,7 +167,7 @@ fn is_guarded(seed: u64) -> bool {
     seed % 4 == 3
 }
 
-/// The plan with a fixed limit loosened.
+/// Returns `plan` with the limit of the normal force raised by half.
 fn loosened(plan: &Plan) -> Plan {
     let mut plan = plan.clone();
     if let Some(limits) = &mut plan.limits {

@@ -1,4 +1,4 @@
-//! Enabling switch of the world: its state, and invariants while nobody holds the switch.
+//! Enabling switch of the simulated world: its state, and invariants while nobody holds the switch.
 
 use super::fault::FaultKind;
 use super::oracle::{HALT_WITHIN_S, UNHELD};
@@ -24,7 +24,8 @@ impl World {
         unheld.is_some_and(|(kind, _)| kind == FaultKind::Unplugged)
     }
 
-    /// Checks a robot that moves now, after a start at `began_s`. Soon after a release of the switch, the robot must halt, and must not start again.
+    /// Checks a robot that moves now and started at `began_s`, s. While nobody holds the switch, no motion may start, and a motion in progress must
+    /// be halted.
     pub(super) fn is_let_move(&mut self, began_s: f64) {
         let Some((_, since_s)) = self.faults.unheld(self.now_s) else {
             self.oracle.is_held();

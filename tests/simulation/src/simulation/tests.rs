@@ -1,4 +1,4 @@
-//! Runs on the simulated rig, one property each.
+//! Tests of runs on the simulated rig, one property each.
 
 mod bench;
 mod conduct;

@@ -1,4 +1,4 @@
-//! Simulated world: a tip on a spring, and faults of calls.
+//! Simulated world: a tip that presses on a spring, and faults of calls to its devices.
 
 use taceva_core::Fault;
 
@@ -18,7 +18,7 @@ const LAG_S: f64 = 0.015;
 const READING_S: f64 = 0.005;
 /// Interval between frames, s.
 const FRAME_S: f64 = 0.02;
-/// Purpose of the draws for pose noise, separate from force noise.
+/// Index of the random draws for pose noise, which separates them from force noise.
 const POSE_NOISE: u64 = 8;
 /// Age of readings with stale stamps, s.
 const STALE_S: f64 = 0.12;
@@ -33,7 +33,7 @@ struct Motion {
 }
 
 impl Motion {
-    /// Position of the tip at `at_s`; before this motion, its start.
+    /// Position of the tip at the time `at_s`, s, in mm. Before the motion, it is the start; after the motion, the target.
     fn tip_at(&self, at_s: f64) -> [f64; 3] {
         if at_s >= self.end_s {
             return self.to;
@@ -66,7 +66,7 @@ pub(super) struct World {
     poses: u64,
     zero_n: f64,
     last_force: Option<[f64; 3]>,
-    /// True while the transducer shows an old force.
+    /// True while the transducer repeats an old force.
     frozen: bool,
     /// Time since which a reading is awaited, s; `None` while the transducer gives readings.
     listening_s: Option<f64>,
@@ -80,7 +80,7 @@ pub(super) struct World {
 pub(super) enum Sabotage {
     /// No bug.
     Nothing,
-    /// The limits of the supervisor are half as large again.
+    /// The supervisor uses a force limit that is 1.5 times the limit of the rig.
     LooseLimits,
     /// Halts take too long.
     SlowHalt,
@@ -197,12 +197,12 @@ impl World {
         0.1 + 0.05 * (0.7 * x).sin() * (0.9 * y).cos() + self.gel.slope * x
     }
 
-    /// True indentation at a pose.
+    /// True indentation with the tip at a position, mm.
     pub(super) fn depth(&self, [x, y, z]: [f64; 3]) -> f64 {
         (z - self.surface([x, y])).max(0.0)
     }
 
-    /// True normal force at a pose.
+    /// True normal force with the tip at a position, N.
     pub(super) fn force(&self, tip: [f64; 3]) -> f64 {
         self.gel.stiffness_n_mm * self.depth(tip)
     }
@@ -261,7 +261,7 @@ impl World {
         Some(self.sense())
     }
 
-    /// Records that there was no reading since `since_s`. The tip may continue only for the allowed silence.
+    /// Records that there was no reading since `since_s`, s. A halt is required when readings have been missing for too long.
     pub(super) fn missed(&mut self, since_s: f64) {
         let listening_s = *self.listening_s.get_or_insert(since_s);
         self.oracle.blinded();
@@ -319,7 +319,7 @@ impl World {
         Some(self.sense())
     }
 
-    /// Starts a motion, and measures silence from now on.
+    /// Starts a motion, and restarts the time without a reading.
     pub(super) fn set_out(&mut self) {
         self.listening_s = None;
     }
@@ -337,7 +337,7 @@ impl World {
         self.now_s + self.way_to(target) / speed_mm_s
     }
 
-    /// Position of a motion to `target` at `at_s`, at most its end.
+    /// Position at the time `at_s`, s, in a motion to `target` that begins now, mm. After the motion, the position is `target`.
     pub(super) fn on_way(&self, target: [f64; 3], speed_mm_s: f64, at_s: f64) -> [f64; 3] {
         let length_mm = self.way_to(target);
         let step_mm = speed_mm_s * (at_s - self.now_s).max(0.0);
@@ -373,5 +373,5 @@ impl World {
     }
 }
 
-/// Length of a silence, s.
+/// Time without a reading after which a halt is required, s.
 const STALE_AFTER_S: f64 = taceva_protocol::STALE_S;

@@ -1,4 +1,4 @@
-//! Shared world of devices, disk and clock. Its time is the time of the run. A kill may end the process at any call.
+//! Simulated world that devices, disk and clock share. A kill may end the simulated process at any call.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -26,7 +26,7 @@ impl Shared {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Ends the process here if a kill is due.
+    /// Ends the simulated process if a kill is due. Cancels the run if a cancellation is due.
     pub(super) fn survive(&self) {
         let mut world = self.world();
         let now_s = world.now_s;

@@ -1,8 +1,8 @@
-//! Settings of an emulated box: its page, and their effect on readings.
+//! Settings of an emulated Net F/T box: the page that shows them, and their effect on readings.
 
 use std::time::Duration;
 
-/// Settings of a box, as a person makes them on its pages.
+/// Settings of a Net F/T box, as a person makes them on its pages.
 ///
 /// ```
 /// use taceva_wire::netft::Setup;
@@ -15,24 +15,24 @@ pub struct Setup {
     pub tool: [f64; 6],
     /// Number of the low pass, at most 8; 0 for none.
     pub filter: u8,
-    /// Drift of the zero of Fz in the transducer's own axes, N a minute.
+    /// Drift of the force zero along the transducer's own z axis, N a minute.
     pub drift_n_min: f64,
-    /// True for a page without the entries of the tool frame and of the low pass.
+    /// True if the page lacks the entries for the tool frame and the low pass filter.
     pub is_hidden: bool,
 }
 
-/// Entries of the tool frame and of the low pass.
+/// Names of the page's entries for the tool frame and the low pass filter.
 const HIDDEN: [&str; 4] = ["cfgtfx", "scfgtdu", "scfgtau", "setuserfilter"];
 
-/// Readings per second.
+/// Number of records that the box sends per second.
 pub(super) const RATE_HZ: u32 = 500;
-/// Measurements per second; the box sends only some of them.
+/// Number of measurements per second. The box sends only some of them.
 pub(super) const INTERNAL_HZ: u32 = 7_000;
 /// Counts per N, and per N·m.
 pub(super) const COUNTS: f64 = 10_000_000.0;
 /// Cutoffs of the low passes, from number 1, Hz.
 const CUTOFFS_HZ: [f64; 8] = [838.0, 326.0, 152.0, 73.0, 35.0, 18.0, 8.0, 5.0];
-/// Place of the tip relative to the transducer, in its own axes, m.
+/// Position of the tip relative to the transducer, in the transducer's axes, m.
 const TIP_M: [f64; 3] = [0.002, -0.003, 0.05];
 /// Measuring range of torques, N·m.
 const RANGE_NM: f64 = 5.0;
@@ -108,7 +108,7 @@ impl Setup {
         )
     }
 
-    /// Wrench that the box reports for a force on the tip in the transducer's own axes, in N and N·m.
+    /// Wrench that the box reports, in N and N·m, for the force `force_n` on the tip. The force is in the transducer's own axes.
     pub(super) fn wrench(&self, force_n: [f64; 3]) -> [f64; 6] {
         let [x, y, z, turns @ ..] = self.tool;
         let from_tool_m = [
@@ -122,12 +122,12 @@ impl Setup {
         [fx, fy, fz, tx, ty, tz]
     }
 
-    /// Force in the transducer's own axes with the drift of its zero, after `since` the start.
+    /// Adds the drift of the zero to a force in the transducer's own axes, N. `since` is the time since the start.
     pub(super) fn drifted_n(&self, [x, y, z]: [f64; 3], since: Duration) -> [f64; 3] {
         [x, y, z + self.drift_n_min / 60.0 * since.as_secs_f64()]
     }
 
-    /// Output of the low pass one reading after `before`.
+    /// Output of the low pass filter for the input `wrench`, one reading after the output `before`.
     pub(super) fn passed(&self, before: [f64; 6], wrench: [f64; 6]) -> [f64; 6] {
         let number = usize::from(self.filter);
         let Some(cutoff_hz) = number
@@ -145,7 +145,7 @@ fn cross([ax, ay, az]: [f64; 3], [bx, by, bz]: [f64; 3]) -> [f64; 3] {
     [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]
 }
 
-/// Components of `vector` in a frame that is turned about x, then y, then z, by degrees.
+/// Components of `vector` in a frame that is rotated about x, then y, then z, by the angles `turns` in degrees.
 fn into_frame(vector: [f64; 3], turns: [f64; 3]) -> [f64; 3] {
     let mut turned = vector;
     for (axis, degrees) in turns.into_iter().enumerate() {

@@ -1,4 +1,4 @@
-//! A client of the box.
+//! Serves one client of an emulated SRI box.
 
 use std::io::{self, Write};
 use std::net::TcpStream;
@@ -37,7 +37,7 @@ impl Session {
     }
 }
 
-/// Supported rates, Hz.
+/// Supported rates of readings, Hz.
 const RATES_HZ: std::ops::RangeInclusive<u32> = 1..=2_000;
 /// Duration of zeroing.
 const ZEROING: Duration = Duration::from_millis(100);
@@ -126,9 +126,9 @@ fn answer(command: &str, session: &Session, bench: &WallBench) -> Option<String>
     Some(format!("{command}${outcome}"))
 }
 
-/// Start of a frame of 65535 bytes, with the mark of another in its middle.
+/// Start of a frame that claims 65535 bytes. The mark of another frame is in its middle.
 const HOSTILE: &[u8] = &[0xaa, 0x55, 0xff, 0xff, 0xaa, 0x55, 0x00];
-/// Increment of the number when numbers are skipped.
+/// Increment of the frame number under the fault that skips numbers.
 const SKIPPED: u16 = 7;
 
 /// Sends readings at regular times while the client wants them.

@@ -1,4 +1,4 @@
-//! State of the controller, which its ports share.
+//! State of an emulated controller of Universal Robots, which all its ports share.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -11,12 +11,12 @@ use crate::base::Base;
 use crate::bench::WallBench;
 use crate::fault::ArmFault;
 
-/// A tool that points down.
+/// Rotation vector of a tool that points down, rad.
 const DOWN: [f64; 3] = [std::f64::consts::PI, 0.0, 0.0];
-/// Duration of a velocity that lasts until the next command, s.
+/// Duration, s, of a motion at constant velocity that only the next command ends.
 const ENDLESS_S: f64 = 600.0;
 
-/// The controller.
+/// Emulated controller, shared by the servers of all ports.
 #[derive(Debug)]
 pub(super) struct Controller {
     pub(super) bench: WallBench,
@@ -29,9 +29,9 @@ pub(super) struct Controller {
 struct Inside {
     /// Fault that only a person can clear; `None` without a fault.
     fault: Option<ArmFault>,
-    /// Rotation vector of the tool, which the gel ignores.
+    /// Rotation vector of the tool, rad. The rotation has no effect on the gel.
     turned: [f64; 3],
-    /// Number of the last numbered stop.
+    /// Number of the last stop command that had a number.
     stop_number: i32,
     /// Position of the speed slider, 0 to 1, which slows every motion.
     slider: f64,
@@ -42,7 +42,7 @@ struct Inside {
 }
 
 impl Controller {
-    /// Controller of a version, major and minor, that is switched on.
+    /// Creates a controller of a version, major and minor, that is switched on.
     pub(super) fn new(bench: &WallBench, version: [u32; 2]) -> Controller {
         Controller {
             bench: bench.clone(),
@@ -62,7 +62,7 @@ impl Controller {
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The pose in m and as a rotation vector in rad, in the base frame.
+    /// Pose of the tip in m and as a rotation vector in rad, in the base frame.
     pub(super) fn pose(&self) -> [f64; 6] {
         let position = self.bench.pose().position;
         let [x, y, z] = Base::to_base([position.x.0, position.y.0, position.z.0]);
@@ -176,7 +176,7 @@ impl Controller {
         self.bench.set_out(Base::pose(place, yaw_rad), speed);
     }
 
-    /// Moves the tip straight to a pose within a time. The next target may replace this one earlier.
+    /// Moves the tip straight to a pose in `within_s`, s. A later target may replace this one before the tip arrives.
     fn servo(&self, inside: &mut Inside, pose: [f64; 6], within_s: f64) {
         let at = self.bench.pose().position;
         let here_mm = Base::to_base([at.x.0, at.y.0, at.z.0]);
@@ -184,7 +184,7 @@ impl Controller {
         self.move_line(inside, pose, x.hypot(y).hypot(z) / within_s);
     }
 
-    /// Moves at a velocity until it expires.
+    /// Moves the tip at a velocity for `lasts_s`, s.
     fn cruise(&self, inside: &Inside, velocity_m_s: [f64; 3], lasts_s: f64) {
         self.bench.stand();
         let speed_mm_s = velocity_m_s.map(|side| side * 1e3 * inside.slider);

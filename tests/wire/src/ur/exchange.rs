@@ -1,4 +1,4 @@
-//! A client of the real-time data exchange.
+//! Serves one client of the real-time data exchange.
 
 use std::io::{self, Write};
 use std::net::TcpStream;
@@ -11,11 +11,11 @@ use crate::fault::{ArmFault, Device, FaultKind};
 use crate::link::Link;
 use crate::server::{End, read};
 
-/// Least rate of states, and the greatest of a CB3 and of an e-Series controller, Hz.
+/// Minimum rate of state messages, Hz. [`RATES_MAX_HZ`] are the maximum rates of a CB3 and of an e-Series controller.
 const RATE_MIN_HZ: f64 = 1.0;
 const RATES_MAX_HZ: [f64; 2] = [125.0, 500.0];
 
-/// Requests of one client.
+/// Outputs, inputs and rate that one client requested.
 #[derive(Debug)]
 struct Wanted {
     names: Vec<String>,

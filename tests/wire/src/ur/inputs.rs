@@ -19,12 +19,12 @@ const OUTPUTS: [(&str, &str); 10] = [
     ("standard_analog_output_1", "DOUBLE"),
 ];
 
-/// General-purpose registers that clients write, and their request for the speed slider.
+/// General-purpose registers that clients write, and the position of the speed slider that they request.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Inputs {
     pub(super) integers: [i32; COUNT],
     pub(super) doubles: [f64; COUNT],
-    /// 1 if the slider is to be moved to the fraction, 0 to 1.
+    /// 1 if a client requests to move the slider, otherwise 0.
     slider_mask: u32,
     slider_fraction: f64,
 }
@@ -41,14 +41,14 @@ impl Default for Inputs {
 }
 
 impl Inputs {
-    /// Requested position of the speed slider, once; `None` without a request.
+    /// Requested position of the speed slider, 0 to 1, which is returned once; `None` without a new request.
     pub(super) fn take_slider(&mut self) -> Option<f64> {
         let is_asked = std::mem::take(&mut self.slider_mask) == 1;
         is_asked.then(|| self.slider_fraction.clamp(0.0, 1.0))
     }
 }
 
-/// Input by its name.
+/// Input of the controller that a recipe names.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Input {
     Integer(usize),
@@ -61,12 +61,13 @@ enum Input {
     Ignored(&'static str),
 }
 
-/// Inputs of a message, in their order.
+/// Inputs in a message of a client, in their order.
 #[derive(Debug)]
 pub(super) struct Recipe(Vec<Input>);
 
 impl Recipe {
-    /// Recipe of `names`, which commas separate, and the types of its answer; no recipe if an input is unknown.
+    /// Parses a recipe: the names of inputs, separated by commas. Also returns the answer with their types. There is no recipe if an input is
+    /// unknown.
     pub(super) fn read(names: &str) -> (Option<Recipe>, String) {
         // The recipes of a public client end with a comma.
         let names = names.strip_suffix(',').unwrap_or(names);
@@ -79,7 +80,7 @@ impl Recipe {
         (recipe.map(Recipe), types.join(","))
     }
 
-    /// Writes the values of a message to `inputs`. False, without a change, if their length differs from the length of the recipe.
+    /// Writes the values of a message to `inputs`. Returns false and changes nothing if their length differs from the recipe's.
     pub(super) fn write(&self, values: &[u8], inputs: &mut Inputs) -> bool {
         let length: usize = self.0.iter().map(|input| input.bytes()).sum();
         if values.len() != length {

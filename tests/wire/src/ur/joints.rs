@@ -43,7 +43,8 @@ pub(super) fn pose(angles: [f64; 6]) -> [f64; 6] {
     [x, y, z, rx, ry, rz]
 }
 
-/// Speed of the tip at a pose while the base turns at a speed in rad/s. Emulated motions of the joints move the tip straight at this speed.
+/// Speed of the tip, m/s, at `pose` if only the base joint turned at `speed_rad_s`, rad/s. Emulated joint motions move the tip straight at this
+/// speed.
 pub(super) fn tip_speed_m_s(pose: [f64; 6], speed_rad_s: f64) -> f64 {
     let [x, y, z, ..] = pose;
     speed_rad_s * x.hypot(y).hypot(z)

@@ -1,6 +1,7 @@
 //! Outputs of a controller by name: their types, and the versions that have them.
 
-/// Outputs with their types, and the least minor version with the output, of a CB3 (3.x) and of an e-Series controller (5.x); 99 for none.
+/// Outputs with their types. The numbers are the first minor versions with the output, of a CB3 (3.x) and of an e-Series controller (5.x); 99 if none
+/// has it.
 const OUTPUTS: &[(&str, &str, [u32; 2])] = &[
     ("timestamp", "DOUBLE", [0, 0]),
     ("target_q", "VECTOR6D", [0, 0]),

@@ -2,7 +2,7 @@
 
 use super::joints;
 
-/// A motion of a path, whose blend is ignored.
+/// A motion of a path. The radius that blends it with the next motion is ignored.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Waypoint {
     /// Pose of the tip in m and rad.
@@ -10,7 +10,7 @@ pub(super) struct Waypoint {
     pub(super) speed_m_s: f64,
 }
 
-/// Line before the motions.
+/// Line of the client's script before the motions of the path.
 const BEGIN: &str = "# inject move path\n";
 
 /// Motions in `script`; none if it has no path, or if a motion is not emulated.

@@ -1,9 +1,9 @@
-//! Supported part of the vendor's script language.
+//! Programs in the vendor's script language, as far as the emulator supports them.
 
 use super::path::numbers;
 use super::register_script::{FIRST_LINE, Setup};
 
-/// A program.
+/// A program that a client sent.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Program {
     /// Moves in a straight line to x, y, z in m and a rotation vector in rad.
@@ -13,7 +13,7 @@ pub(super) enum Program {
         velocity_m_s: [f64; 3],
         lasts_s: f64,
     },
-    /// Brakes, and reports its number if it has one.
+    /// Stops the motion, and reports the number of this stop if it has one.
     Stop { number: Option<i32> },
     /// The script of a public client that takes commands from registers.
     Registers(Setup),

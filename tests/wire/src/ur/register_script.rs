@@ -1,8 +1,8 @@
 //! Script of a public client (`RTDEControlInterface` of `ur-rtde`), which takes commands from input registers and answers in output registers.
 //!
-//! A controller runs the script. The emulator recognises the script by its first line, serves the registers without running the script, and supports
-//! motions of tip and joints, paths of motions, followed targets, a velocity without rotation, stops, and questions about rest
-//! and tool. Any other command ends the script, as an error in the script would. Registers are the lower or the upper half, as the script states.
+//! A real controller runs the script. The emulator recognises the script by its first line, and serves the registers without running it. It supports
+//! motions of tip and joints, paths of motions, targets to follow, a velocity without rotation, stops, and questions about rest and tool. Any other
+//! command ends the script, as an error in the script would. The script states whether it uses the lower or the upper half of the registers.
 
 use super::inputs::Inputs;
 use super::joints;
@@ -11,9 +11,9 @@ use super::path::{self, Waypoint};
 /// First line of the script.
 pub(super) const FIRST_LINE: &str = "def rtde_control():\n";
 
-/// Line before the number of the first integer register, in a script that replaces it there.
+/// Comment line in the script. The number of the first integer register follows it.
 const FIRST_REGISTER: &str = "# int register offset\n";
-/// First register of the upper half.
+/// First register of the upper half of the registers.
 const UPPER: usize = 24;
 /// Least and greatest time within which a followed target is reached, s.
 const LOOKAHEAD_S: [f64; 2] = [0.03, 0.2];
@@ -29,7 +29,7 @@ pub(super) struct Setup {
 /// Command in the input registers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Command {
-    /// No command.
+    /// The registers contain no command.
     None,
     /// Moves the tip straight to a pose in m and rad.
     Move {
@@ -44,7 +44,7 @@ pub(super) enum Command {
     Servo { pose: [f64; 6], within_s: f64 },
     /// Moves at a velocity until the next command.
     Cruise { velocity_m_s: [f64; 3] },
-    /// Brakes.
+    /// Stops the motion in progress.
     Stop,
     /// Asks if the arm rests.
     IsSteady,
@@ -68,35 +68,35 @@ pub(super) struct RegisterScript {
     progress: Progress,
 }
 
-/// Content of the first output register.
+/// State of the script, as its first output register shows it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum State {
     Ready = 1,
     Done = 2,
 }
 
-/// Stage of a command, which is executed once.
+/// Stage of a command that is executed only once, even if it stays in the register.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Stage {
-    /// The register of commands was 0, or has a repeated command.
+    /// The script is ready for a command: the command register was 0, or has a command that may be repeated.
     Free,
-    /// A motion that the script waits for.
+    /// A motion is in progress, and the script waits for its end.
     Moving,
     Done,
 }
 
-/// Report of motions for which the script does not wait.
+/// Progress of motions for which the script does not wait.
 #[derive(Clone, Copy, Debug, Default)]
 struct Progress {
     reports: i32,
     motions: i32,
-    /// Motions of the path that are done.
+    /// Number of completed motions of the path.
     steps: i32,
     is_moving: bool,
 }
 
 impl Setup {
-    /// Facts in the text of a script.
+    /// Reads the facts that the client wrote into `script`.
     pub(super) fn of(script: &str) -> Setup {
         let after = script.split_once(FIRST_REGISTER).map(|(_, after)| after);
         let upper = after.is_some_and(|after| after.starts_with(&UPPER.to_string()));
@@ -108,7 +108,7 @@ impl Setup {
 }
 
 impl Command {
-    /// Command in the registers from `first` on.
+    /// Parses the command in the registers from `first` on.
     pub(super) fn read(inputs: &Inputs, first: usize) -> Command {
         let registers = (inputs.doubles.get(first..), inputs.integers.get(first..));
         let (
@@ -160,7 +160,7 @@ impl Command {
 }
 
 impl RegisterScript {
-    /// State of a script that has begun.
+    /// Creates the state of a script that has just begun.
     pub(super) fn begun(setup: Setup) -> RegisterScript {
         let mut progress = Progress::default();
         progress.report(false);
@@ -179,7 +179,7 @@ impl RegisterScript {
         self.setup.first
     }
 
-    /// Takes the content of the registers. Returns the command if it is to be executed now.
+    /// Processes the present command in the registers. Returns the command if it must be executed now; `None` otherwise.
     pub(super) fn take(&mut self, command: Command, is_moving: bool) -> Option<Command> {
         match (self.stage, command) {
             (Stage::Moving, _) => return None,
@@ -257,7 +257,7 @@ impl Progress {
         self.report(true);
     }
 
-    /// Reports a motion of a path. The script reports the first one as a new motion.
+    /// Reports that motion number `step` of a path begins. Motion 0 is reported as a new motion, later ones as progress.
     fn advance(&mut self, step: usize) {
         if step == 0 {
             return self.begin();
@@ -278,7 +278,8 @@ impl Progress {
         self.is_moving = is_moving;
     }
 
-    /// Content of the register: numbers of the report and of the motion, and a bit while the arm moves.
+    /// Content of the output register: the number of the motion, the number of the report, a bit while the arm moves, and the completed motions of
+    /// the path.
     fn register(self) -> i32 {
         let moves = i32::from(self.is_moving);
         self.motions * 0x0100_0000 + self.reports * 0x0001_0000 + moves * 0x8000 + self.steps

@@ -1,4 +1,4 @@
-//! Answers of each register.
+//! Answers to commands, by the register that a command names.
 
 use super::client::{Client, Push};
 use super::controller::{Controller, Snapshot, Taken};
@@ -17,11 +17,11 @@ const HAS_ERROR: u8 = 0x40;
 const HAS_WARNING: u8 = 0x20;
 const NOT_READY: u8 = 0x10;
 const INVALID: u8 = 0x08;
-/// Length of the answers to the queries of the version and of the serial numbers.
+/// Length of the answers to queries of the version and of the serial numbers, bytes.
 const TEXT_BYTES: usize = 40;
 
 impl Session {
-    /// Answer frames of a command; `head` is its transaction and protocol.
+    /// Answer frames of a command. `head` contains the transaction number and the protocol number of the command.
     pub(super) fn answer(
         &mut self,
         controller: &Controller,
@@ -126,7 +126,7 @@ impl Session {
     }
 }
 
-/// Reply to the motion in the parameters of `register`; `None` if they match no layout.
+/// Reply to the motion in the parameters of `register`; `None` if their length matches no message layout.
 fn taken(
     controller: &Controller,
     register: u8,
@@ -190,7 +190,7 @@ fn status(snapshot: &Snapshot) -> u8 {
     status
 }
 
-/// Serial numbers of the arm, in the maker's form, and of the control box, which marks it as simulated.
+/// Serial numbers of the arm, in the maker's format, and of the control box. The latter shows that the box is simulated.
 fn serials(controller: &Controller) -> [String; 2] {
     let serial = controller.bench.serial();
     let number: String = serial.chars().filter(char::is_ascii_digit).collect();

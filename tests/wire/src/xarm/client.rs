@@ -1,4 +1,4 @@
-//! Connection for the answers to one client, and messages pushed to it.
+//! Connection to one client, for answers and for messages that the box sends without a request.
 
 use std::io::Write;
 use std::net::TcpStream;
@@ -25,7 +25,7 @@ impl Client {
     }
 }
 
-/// Message to a client at the end of a motion, on request.
+/// Message that the box sends to a client at the end of a motion, if the client requested it.
 #[derive(Clone, Debug)]
 pub(super) struct Push {
     pub(super) client: Client,

@@ -14,7 +14,7 @@ use crate::bench::WallBench;
 use crate::fault::ArmFault;
 use crate::placement::Placement;
 
-/// The control box.
+/// Emulated control box, shared by the servers of all ports.
 #[derive(Debug)]
 pub(super) struct Controller {
     pub(super) bench: WallBench,
@@ -29,9 +29,9 @@ struct BoxState {
     error: u8,
     warning: u8,
     enabled: u8,
-    /// roll, pitch, yaw in rad, which the gel ignores.
+    /// Roll, pitch and yaw of the tool, rad. The rotation has no effect on the gel.
     turned: [f32; 3],
-    /// Angles of the joints at the last look.
+    /// Angles of the joints when they were last computed, rad.
     angles: Angles,
     waiting: VecDeque<Order>,
     /// Motion in progress.
@@ -56,18 +56,18 @@ struct Motion {
     is_only_checked: bool,
 }
 
-/// Reply to a motion.
+/// Reply to a requested motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Taken {
-    /// The arm makes the motion, or states by an error or a warning that it cannot.
+    /// The arm makes the motion, or sets an error or a warning because it cannot.
     Accepted,
-    /// The motion was only checked, with the number of the error that would end it; 0 for none.
+    /// The motion was only checked. The field is the number of the error that would end it; 0 for none.
     Checked(u8),
     /// The arm may not move.
     Refused,
 }
 
-/// Content of a status byte and a report.
+/// State of the box, as a status byte and a report contain it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Snapshot {
     pub(super) state: u8,
@@ -81,15 +81,15 @@ pub(super) struct Snapshot {
     pub(super) angles: [f32; 6],
 }
 
-/// Mode for velocities of the tip.
+/// Number of the mode in which the arm accepts velocities of the tip.
 const VELOCITY: u8 = 5;
 pub(super) const READY: u8 = 2;
 const MOVING: u8 = 1;
 const PAUSED: u8 = 3;
 const STOPPED: u8 = 4;
-/// State that must be made ready.
+/// Number of the state in which the arm rejects motions until a client makes it ready.
 const UNREADY: u8 = 5;
-/// Six joints.
+/// Bits of all six joints.
 const ALL_JOINTS: u8 = 0b11_1111;
 const EMERGENCY_STOP: u8 = 2;
 const COLLISION: u8 = 31;
@@ -99,7 +99,8 @@ const BAD_PARAMETER: u8 = 12;
 pub(super) const SPEEDS_MM_S: [f64; 2] = [0.1, 1_000.0];
 /// Least and greatest speed of a joint, rad/s.
 pub(super) const JOINT_SPEEDS_RAD_S: [f64; 2] = [0.001, 3.0];
-/// Least time of a motion of the joints, s, and least speed of the tip in it, mm/s. Joints may turn without moving the tip.
+/// Minimum duration of a motion of the joints, s, because joints may turn without moving the tip. In such a motion, the tip has at least
+/// `TURN_MIN_MM_S`, mm/s.
 const TURN_MIN_S: f64 = 1e-3;
 const TURN_MIN_MM_S: f64 = 1e-3;
 /// Safety boundary: range of the tip about the centre of the gel, mm.
@@ -124,7 +125,7 @@ impl Controller {
         }
     }
 
-    /// True if straight motions have the longer layout.
+    /// True if messages for straight motions have the longer layout, as in new firmware.
     pub(super) fn takes_long_lines(&self) -> bool {
         self.firmware >= [1, 11, 100]
     }
@@ -175,7 +176,7 @@ impl Controller {
         }
     }
 
-    /// Accepts a straight motion.
+    /// Accepts, checks or rejects a straight motion.
     pub(super) fn take(&self, line: &Line, push: Option<Push>) -> Taken {
         let mut inside = self.inside();
         let last = inside.waiting.back().or(inside.current.as_ref());

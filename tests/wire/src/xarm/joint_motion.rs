@@ -6,10 +6,10 @@ use super::line::{DIFFERENCE_BYTES, number};
 /// Requested motion of the joints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct JointMotion {
-    /// Angles in rad or their differences; infinite for an unchanged joint.
+    /// Target angles or changes of the angles, rad. An infinite value leaves a joint unchanged.
     angles: [f32; 6],
     pub(super) speed_rad_s: f32,
-    /// True if the angles are differences.
+    /// True if the angles are changes relative to the present angles.
     is_relative: bool,
     /// True if the motion is only checked.
     pub(super) is_only_checked: bool,
@@ -25,7 +25,7 @@ impl JointMotion {
         JointMotion::of(values, checked, false)
     }
 
-    /// Parses the difference in the parameters of register 83; `None` for a difference of the tip's pose.
+    /// Parses the change of the angles in the parameters of register 83; `None` if they describe a change of the tip's pose.
     pub(super) fn relative(parameters: &[u8]) -> Option<JointMotion> {
         let (values, &[1, _, ref checked @ ..]) = parameters.split_at_checked(DIFFERENCE_BYTES)?
         else {
@@ -43,7 +43,7 @@ impl JointMotion {
         })
     }
 
-    /// Target angles from `at`.
+    /// Target angles of the motion if it begins at the angles `at`, rad.
     pub(super) fn end(&self, at: Angles) -> Angles {
         std::array::from_fn(|joint| match f64::from(self.angles[joint]) {
             angle if angle.is_infinite() => at[joint],

@@ -32,10 +32,10 @@ const LINKS: [Link; 6] = [
     link(0.0, 0.0, FRAC_PI_2, 0.0),
     link(0.0, 97.0, -FRAC_PI_2, 76.0),
 ];
-/// Approximate angles, rad, of a tool above the gel that points down.
+/// Approximate angles of the joints, rad, with the tool above the gel and pointing down.
 pub(super) const ABOVE: Angles = [0.0, -0.46, -0.36, 0.0, 0.82, 0.0];
 
-/// Placement of the flange for these angles.
+/// Placement of the flange for the joint angles `angles`.
 pub(super) fn flange(angles: Angles) -> Placement {
     let base = Placement {
         at_mm: [0.0; 3],
@@ -65,10 +65,10 @@ impl Link {
 /// Angles near `from` that bring the flange to `target`; `None` if none are found.
 pub(super) fn angles_at(target: &Placement, from: Angles) -> Option<Angles> {
     const STEPS: u32 = 20;
-    /// Greatest change of an angle in a step, and the difference of angles by which derivatives are taken, rad.
+    /// Greatest change of an angle in one step of the search, rad. Derivatives use the angle difference `SMALL`, rad.
     const STEP_MAX: f64 = 0.3;
     const SMALL: f64 = 1e-6;
-    /// Damping, which keeps steps short where the arm cannot move in a direction.
+    /// Damping of the search for angles. It keeps steps short where the arm cannot move in some direction.
     const DAMPING: f64 = 1e-6;
     let mut angles = from;
     for _ in 0..STEPS {
@@ -99,7 +99,7 @@ pub(super) fn angles_at(target: &Placement, from: Angles) -> Option<Angles> {
     None
 }
 
-/// Remaining way and turn from the flange to `target`, in decimetres and rad.
+/// Remaining displacement and rotation vector from the flange to `target`, in decimetres and rad.
 fn left(angles: Angles, target: &Placement) -> [f64; 6] {
     let [x, y, z, rx, ry, rz] = flange(angles).apart(target);
     [x / 100.0, y / 100.0, z / 100.0, rx, ry, rz]

@@ -20,17 +20,17 @@ pub(super) struct Line {
 pub(super) enum Reference {
     /// A pose in the base frame.
     Base,
-    /// A difference along and about the axes of the base frame.
+    /// A change of the pose along and about the axes of the base frame.
     Difference,
-    /// A difference in the frame of the tool.
+    /// A change of the pose in the frame of the tool.
     Tool,
 }
 
 /// Length of nine values, as in motions before firmware 1.11.100, bytes.
 const OLD_BYTES: usize = 36;
-/// Length of ten values, bytes; three switches follow.
+/// Length of the ten numbers of a motion, bytes. Three bytes with switches follow.
 const LONG_BYTES: usize = 40;
-/// Length of the eleven values of a difference, bytes; a switch for joints and one for rotation vectors follow.
+/// Length of the eleven numbers of a relative motion, bytes. Two bytes follow: a switch for joints, and a switch for rotation vectors.
 pub(super) const DIFFERENCE_BYTES: usize = 44;
 
 impl Line {
@@ -56,7 +56,7 @@ impl Line {
         })
     }
 
-    /// Parses the motion in the tool frame of register 28, which new clients do not send.
+    /// Parses a motion in the tool frame from the parameters of register 28, which new clients do not use.
     pub(super) fn in_tool(parameters: &[u8]) -> Option<Line> {
         Line::old(parameters, Reference::Tool)
     }
@@ -75,7 +75,7 @@ impl Line {
         })
     }
 
-    /// Parses the motion with a rotation vector of register 92, which new clients do not send.
+    /// Parses a motion with a rotation vector from the parameters of register 92, which new clients do not use.
     pub(super) fn by_rotation_vector(parameters: &[u8]) -> Option<Line> {
         let (values, &[in_tool, is_difference, ref checked @ ..]) =
             parameters.split_at_checked(OLD_BYTES)?
@@ -94,7 +94,7 @@ impl Line {
         })
     }
 
-    /// Parses the difference in the parameters of register 83; `None` for a difference of joints.
+    /// Parses the relative motion in the parameters of register 83; `None` if they describe a change of the joints.
     pub(super) fn relative(parameters: &[u8]) -> Option<Line> {
         let (values, &[0, has_rotation_vector, ref checked @ ..]) =
             parameters.split_at_checked(DIFFERENCE_BYTES)?
@@ -110,7 +110,7 @@ impl Line {
         })
     }
 
-    /// Target pose from `at`.
+    /// Target pose of the motion if it begins at the pose `at`.
     pub(super) fn end(&self, at: [f32; 6]) -> [f32; 6] {
         let here = Placement::of_pose(at);
         let wanted = match self.has_rotation_vector {
@@ -150,16 +150,16 @@ mod tests {
         digits.chunks_exact(2).map(byte).collect()
     }
 
-    /// Frames of xarm-python-sdk 1.18.4: `set_position(300, 0, 200, 180, 0, 0, speed=100)` and `set_position(z=-0.1, relative=True,
+    /// Parameters of commands of xarm-python-sdk 1.18.4: `set_position(300, 0, 200, 180, 0, 0, speed=100)` and `set_position(z=-0.1, relative=True,
     /// speed=5)`.
     const LONG: &str = "00009643 00000000 00004843 db0f4940 00000000 00000000 0000c842 0000fa44 00000000 000080bf 000000";
     const SHORT: &str =
         "00009643 00000000 00004843 db0f4940 00000000 00000000 0000c842 0000fa44 00000000";
     const RELATIVE: &str = "00000000 00000000 cdccccbd 00000000 00000000 00000000 00000000 0000a040 0000c842 00000000 000080bf 0000";
-    /// `set_position(z=199.9, speed=5)`: omitted coordinates are infinite.
+    /// Parameters of `set_position(z=199.9, speed=5)`: omitted coordinates are infinite.
     const PARTIAL: &str = "0000807f 0000807f 66e64743 0000807f 0000807f 0000807f 0000a040 0000c842 00000000 000080bf 000000";
 
-    /// `set_tool_position(z=1, speed=5)`.
+    /// Parameters of `set_tool_position(z=1, speed=5)`.
     const TOOL: &str = "00000000 00000000 0000803f 00000000 00000000 00000000 0000a040 0000c842 00000000 000080bf 010000";
 
     #[test]

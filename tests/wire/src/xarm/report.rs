@@ -12,7 +12,7 @@ use crate::link::Link;
 use crate::placement::Placement;
 use crate::server::End;
 
-/// Port of a report.
+/// Ports on which the control box sends reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ReportPort {
     Pose,

@@ -1,4 +1,4 @@
-//! A client on the command port.
+//! Serves one client on the command port.
 
 use std::net::TcpStream;
 
@@ -10,7 +10,7 @@ use crate::server::{End, read};
 
 const HEADER: usize = 6;
 
-/// Answers until the client closes.
+/// Answers the commands of a client until it closes.
 pub(super) fn serve(mut stream: TcpStream, controller: &Controller, end: &End) {
     let Ok(writing) = stream.try_clone() else {
         return;

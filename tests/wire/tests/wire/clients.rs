@@ -1,4 +1,4 @@
-//! Third-party programs on the other end of our sockets, which show that our two ends do not share an error.
+//! Tests with programs of other authors. They show that an emulator and a driver of this project do not share an error.
 
 mod ffmpeg;
 #[cfg(unix)]

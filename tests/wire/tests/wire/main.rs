@@ -1,4 +1,4 @@
-//! Drivers and public clients against emulated devices, and the program that serves them.
+//! Tests of drivers and public clients with emulated devices, and of the program that serves these devices.
 
 mod clients;
 #[cfg(target_os = "linux")]

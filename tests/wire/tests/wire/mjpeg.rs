@@ -1,4 +1,4 @@
-//! `camera/mjpeg` with the emulated camera, and with invalid servers, through sockets.
+//! Tests of `camera/mjpeg` over sockets, with the emulated camera and with invalid servers.
 
 use std::io::{Read, Write};
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
@@ -16,7 +16,7 @@ use taceva_wire::{BenchOptions, Device, Fault, FaultKind, WallBench};
 
 const PATIENCE: Deadline = Deadline::after(Duration::from_secs(2));
 
-/// Opens the camera at `url`, which further arguments may follow.
+/// Opens the camera at `url`. Further driver arguments may follow the URL.
 fn opened(url: &str) -> Result<Box<dyn Sensor>, DriverError> {
     let factory = MjpegFactory::new().expect("a factory");
     let args = factory.descriptor().args(&format!("url={url}"));
@@ -138,7 +138,7 @@ fn a_camera_that_stalls_is_a_timeout_and_one_that_goes_and_comes_back_is_started
     frame(&mut sensor).expect("a frame");
 }
 
-/// A server that answers every client with `answer` and keeps the connection open.
+/// Starts a server that answers every client with `answer` and keeps the connection open. Returns its URL.
 fn serving(answer: Vec<u8>) -> String {
     let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
     let port = listener.local_addr().expect("bound").port();

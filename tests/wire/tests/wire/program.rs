@@ -1,4 +1,4 @@
-//! The program `taceva-wire`, started like by a user.
+//! Tests of the program `taceva-wire`, started as a user starts it.
 
 use std::io::{BufRead, BufReader, Write};
 use std::net::TcpStream;
@@ -14,9 +14,9 @@ use taceva_wire::RobotKind;
 /// The running program, ended on drop.
 struct Running {
     process: Child,
-    /// First output line.
+    /// First line that the program printed.
     said: String,
-    /// Rig file of the program.
+    /// Content of the rig file that the program wrote.
     rig: toml::Table,
 }
 

@@ -1,4 +1,4 @@
-//! Every driver of a robot and of a force transducer with its emulated device, through sockets and a pseudo-terminal.
+//! Tests of every driver of a robot or a force transducer with its emulated device, over sockets or a pseudo-terminal.
 
 mod answers;
 mod expiring;

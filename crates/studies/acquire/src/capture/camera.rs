@@ -26,7 +26,7 @@ const REST: Duration = Duration::from_millis(5);
 pub(super) struct Taken {
     pub(super) frame: Frame,
     pub(super) stamp: Stamp,
-    /// Encoded file, if the camera sent a file.
+    /// Image file as the camera sent it; `None` if the camera sent pixels.
     pub(super) sent: Option<Vec<u8>>,
 }
 

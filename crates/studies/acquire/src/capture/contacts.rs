@@ -7,7 +7,7 @@ const BEGINS_N: f64 = 0.1;
 /// Normal force below which a contact ends, in N.
 const ENDS_N: f64 = 0.05;
 
-/// Numbering of the contacts of a capture. `rest-0` is the time before the first contact, which is `hand-1`.
+/// Numbering of the contacts of a capture. The first contact is `hand-1`, and the time before it is `rest-0`.
 ///
 /// A rest is not a contact point. Frames of one rest have the same name, so that a training/test split does not separate them.
 #[derive(Debug)]
@@ -17,7 +17,7 @@ pub(super) struct Contacts {
 }
 
 impl Contacts {
-    /// Continues the numbering of `table`.
+    /// Continues the numbering of the contacts in `table`.
     pub(super) fn after(table: &Table) -> Contacts {
         let names = table.point_id().iter().flatten();
         let numbers = names.filter_map(|name| name.strip_prefix("hand-")?.parse().ok());

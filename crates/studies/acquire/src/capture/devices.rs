@@ -32,8 +32,7 @@ const FIRST: Duration = Duration::from_secs(5);
 pub struct LiveSpec {
     sensor: Named,
     force: Option<Named>,
-    /// Axes of the transducer that correspond to the axes of the sensor, if the rig file names the transducer. `None` for any other transducer, and
-    /// without one.
+    /// Axes of the transducer that correspond to the axes of the sensor. `None` if the rig file names no transducer, or an option names another.
     axes: Option<SignedAxes>,
     is_emulated: bool,
 }

@@ -29,11 +29,11 @@ pub(super) struct Labels {
 /// Numbers of frames without a force, by cause.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct LostForces {
-    /// Number of frames before the first reading.
+    /// Number of frames before the first force reading.
     pub(super) before: u64,
-    /// Number of frames between readings that are too far apart.
+    /// Number of frames between two force readings that are too far apart.
     pub(super) in_gaps: u64,
-    /// Number of frames that were not followed by a reading in time.
+    /// Number of frames after which no force reading arrived in time.
     pub(super) late: u64,
 }
 
@@ -64,7 +64,7 @@ impl Labels {
         self.lost
     }
 
-    /// True if samples have no labels.
+    /// True if the samples have no label channels.
     pub(super) fn is_empty(&self) -> bool {
         self.channels.is_empty()
     }

@@ -43,7 +43,7 @@ impl Latencies {
         self.total
     }
 
-    /// Least whole number of milliseconds that is not exceeded by `share` (0 to 1) of the latencies. `None` without latencies, or beyond 2 s.
+    /// Least whole number of milliseconds within which at least `share` (0 to 1) of the latencies lie. `None` without latencies, or beyond 2 s.
     pub fn within_ms(&self, share: f64) -> Option<u64> {
         #[expect(clippy::cast_precision_loss, reason = "a count, far below 2^53")]
         let wanted = share * self.total as f64;

@@ -17,7 +17,7 @@ pub struct Prediction {
     pub stamp_s: f64,
     /// Value of each channel of the model, in the unit of the channel.
     pub values: Vec<f64>,
-    /// Distance of the frame from the training data, with the limit 1; `None` if the model does not compute it.
+    /// Distance of the frame from the training data; above 1, the frame is outside these data. `None` if the model does not compute it.
     pub distance: Option<f64>,
 }
 

@@ -45,14 +45,14 @@ pub struct LivePredictor<'a> {
     /// Feature extractor, created when the format of frames and any reference frame are known.
     extractor: OnceLock<Extractor>,
     offered: Mutex<Offered>,
-    /// Notified when a frame arrives, when a frame is taken for prediction, and at the end.
+    /// Notified when a frame arrives, when a frame is taken for prediction, and when the predictor ends.
     changed: Condvar,
     counts: Mutex<PredictionCounts>,
     table: Option<Mutex<PredictionTable>>,
     failure: OnceLock<String>,
 }
 
-/// Newest frame, and the flag for the end.
+/// Newest frame that waits for its prediction, and a flag that ends the thread.
 #[derive(Default)]
 struct Offered {
     newest: Option<Newest>,
@@ -112,7 +112,7 @@ impl<'a> LivePredictor<'a> {
         self.failure.get().map(String::as_str)
     }
 
-    /// Stored predictions.
+    /// Stored predictions; `None` if no table was requested.
     pub(super) fn table(&self) -> Option<MutexGuard<'_, PredictionTable>> {
         self.table.as_ref().map(lock)
     }
@@ -129,8 +129,8 @@ impl<'a> LivePredictor<'a> {
         Ok(())
     }
 
-    /// Passes `frame` with the time stamp `stamp_s`, in s, to the thread. The frame replaces a waiting frame of a real device. A simulated or recorded source
-    /// waits instead.
+    /// Passes `frame` with the time stamp `stamp_s`, in s, to the thread. A frame of a real device replaces a waiting frame. With a simulated or
+    /// recorded source, this call waits until the earlier frame is predicted.
     pub(super) fn offer(&self, frame: &Frame, stamp_s: f64, source: DriverSource) {
         let is_timed = source == DriverSource::Real;
         let frame = frame.clone();

@@ -7,7 +7,8 @@ use super::predictor::LivePredictor;
 use crate::error::AcquireError;
 use crate::viewer::Viewer;
 
-/// Shows the frames and forces of `live` in `viewer` until the preview is cancelled. With a predictor, its callback receives the frames instead of the viewer.
+/// Shows the frames and forces of `live` in `viewer` until the preview is cancelled. If there is a predictor, its callback shows the frames instead
+/// of the viewer.
 ///
 /// # Errors
 /// [`AcquireError::Device`] if a device fails. [`AcquireError::Model`] if the model cannot read the frames, or fails.

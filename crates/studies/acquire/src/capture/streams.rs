@@ -40,7 +40,7 @@ impl Counts {
         self.is_over.store(true, Ordering::Release);
     }
 
-    /// Counts the sequence numbers missing between `last` and `number` of a numbered camera as dropped frames. Damaged frames are already counted.
+    /// Counts a frame as dropped for each sequence number missing between `last` and `number`. Damaged frames are already counted.
     pub(super) fn missed(&self, last: u64, number: u64) {
         let between = number.saturating_sub(last).saturating_sub(1);
         self.is_numbered.store(true, Ordering::Release);

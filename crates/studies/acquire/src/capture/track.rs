@@ -8,11 +8,11 @@ use taceva_protocol::wrench_between;
 
 /// Age at which readings are removed, in s. Every frame arrives before its readings have this age.
 const KEPT_S: f64 = 5.0;
-/// Maximum gap between readings for interpolation, in periods. A gap of up to [`GAP_S`] is always allowed, because pauses
-/// of threads are not losses of the device.
+/// Maximum gap between two readings for interpolation, as a multiple of the reading period. A gap of up to [`GAP_S`] is always allowed, because a
+/// paused thread also causes gaps.
 const PERIODS: f64 = 3.0;
 const GAP_S: f64 = 0.02;
-/// Factor on the period that allows for errors of clocks and rates.
+/// Factor by which the reading period is lengthened to allow for errors of clocks and rates.
 const TOLERANCE: f64 = 1.01;
 
 /// Readings of the transducer, ordered by time.
@@ -26,13 +26,13 @@ pub(super) struct Track {
 /// Force at a time, or the reason why it is unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum At {
-    /// Interpolated between two readings.
+    /// The force was interpolated between two readings.
     Known(Wrench),
-    /// Unknown, because the readings around this time are too far apart.
+    /// The force is unknown, because the readings around this time are too far apart.
     Gap,
-    /// Unknown, because no reading precedes this time.
+    /// The force is unknown, because no reading precedes this time.
     Before,
-    /// Not known yet, because the next reading has not arrived.
+    /// The force is not known yet, because the next reading has not arrived.
     Early,
 }
 

@@ -21,7 +21,7 @@ const ZEROING: Deadline = Deadline::after(Duration::from_secs(6));
 const MEAN_OVER: Duration = Duration::from_millis(250);
 /// Delay before a failed call is retried.
 const REST: Duration = Duration::from_millis(5);
-/// Force above which a hand presses, in N. The load then changes continuously.
+/// Force above which the gel counts as pressed by a hand, in N. The load then changes continuously.
 const PRESSED_N: f64 = 0.1;
 
 /// A transducer, and the zero wrench that the host subtracts.
@@ -64,7 +64,8 @@ impl Transducer {
         self.facts.rate.map_or(UNKNOWN_S, |rate| 1.0 / rate.0)
     }
 
-    /// Adds readings to `track` until the capture ends. Skips a reading equal to the last one if the load or the noise must have changed it.
+    /// Adds readings to `track` until the capture ends. Skips a repeated reading. It has the last sequence number, or an equal value although noise
+    /// or a pressing hand would have changed the value.
     ///
     /// # Errors
     /// The error that ended the stream of readings: a lost device, a timeout, or a frozen signal.
@@ -135,7 +136,7 @@ impl Transducer {
     }
 }
 
-/// Counts of the readings that differ from the previous reading, and of the readings that equal the previous reading.
+/// Numbers of readings that differ from, or equal, the previous reading.
 #[derive(Clone, Copy, Debug, Default)]
 struct Habit {
     changed: u32,
@@ -143,7 +144,7 @@ struct Habit {
 }
 
 impl Habit {
-    /// Minimum number of changes from which noise is inferred.
+    /// Minimum number of changed readings from which noise is inferred.
     const LEAST: u32 = 10;
 
     fn count(&mut self, is_equal: bool) {
@@ -154,7 +155,7 @@ impl Habit {
         *counter = counter.saturating_add(1);
     }
 
-    /// True if most readings differ from the previous reading, as noise makes them differ. A run of equal readings is then a frozen signal.
+    /// True if most readings differ from the previous reading, because of noise. A run of equal readings is then a frozen signal.
     fn is_lively(self) -> bool {
         self.changed >= Self::LEAST && self.changed > self.equal
     }
@@ -199,7 +200,7 @@ mod waiting {
         }
     }
 
-    /// Reads the forces `loads` for three seconds. Returns the error that ended the stream.
+    /// Reads a transducer with the forces `loads` for three seconds. Returns the error that ended the stream.
     fn read(facts: ForceFacts, loads: impl FnMut(u32) -> f64 + Send + 'static) -> Option<String> {
         let mut transducer = Transducer {
             device: Box::new(Scripted { loads, read: 0 }),

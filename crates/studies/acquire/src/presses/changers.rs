@@ -1,4 +1,5 @@
-//! Changers of a rig: opened from the rig file and called with a deadline. Their result is checked by the name that they report.
+//! Changers of a rig, opened from the rig file. Each call has a deadline. After a change, the name that the changer reports for the new item is
+//! checked.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;

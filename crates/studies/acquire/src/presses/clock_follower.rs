@@ -1,8 +1,8 @@
 //! Follows the clock of a camera against the clock of this machine, and removes its drift from the time stamps.
 //!
-//! A frame arrives later than its stamp. Delays only add to this offset, so its least value in each block of frames shows the clock. A line through
-//! these least offsets gives the drift. The median of all pairwise slopes (Theil 1950, Sen 1968), weighted by their times, is not affected by blocks
-//! in which every frame was delayed.
+//! The offset of a frame is the time from its stamp to its arrival. Delays only increase the offset, so only the least offset in each block of frames
+//! is used. The slope of a line through these least offsets gives the drift. The median of all pairwise slopes (Theil 1950, Sen 1968), weighted by
+//! their times, is not affected by blocks in which every frame was delayed.
 
 use std::collections::BTreeMap;
 
@@ -11,10 +11,10 @@ use taceva_core::Stamp;
 /// Duration of the first blocks, s. It doubles each time the blocks are merged, up to `BLOCK_MAX_S`.
 const BLOCK_S: f64 = 0.25;
 const BLOCK_MAX_S: f64 = 4.0;
-/// Minimum number of frames in a block, and maximum time for the arrival of these frames, s.
+/// Minimum number of frames in a block. They must arrive within [`FRAMES_WITHIN_S`], s.
 const FRAMES: u32 = 4;
 const FRAMES_WITHIN_S: f64 = 30.0;
-/// Minimum and maximum number of blocks for a line, and minimum number of blocks for the correction of a drift.
+/// Minimum number of blocks for a line; the maximum is [`BLOCKS_MAX`]. A drift is only corrected with at least [`FOLLOWED_MIN`] blocks.
 const BLOCKS_MIN: usize = 6;
 const BLOCKS_MAX: usize = 64;
 const FOLLOWED_MIN: usize = 12;
@@ -22,28 +22,28 @@ const FOLLOWED_MIN: usize = 12;
 const PPM_MAX: f64 = 1000.0;
 /// Number of standard uncertainties above which a drift is corrected.
 const SHOWN: f64 = 3.0;
-/// Greatest error of a line that is extrapolated after its last block, s, for [`SHOWN`] standard uncertainties of its slope.
+/// Greatest error, s, of a line that is extrapolated after its last block. The assumed error of its slope is [`SHOWN`] standard uncertainties.
 const CONTINUED_S: f64 = 1e-3;
 /// Ratio of the standard deviation of a normal distribution to its median absolute deviation.
 const NORMAL: f64 = 1.4826;
-/// Greatest change of the correction, relative to the time between two stamps. Corrected stamps therefore keep their order.
+/// Greatest change of the drift correction between two stamps, relative to the time between them. Corrected stamps therefore keep their order.
 const SLEW: f64 = 0.5;
-/// Names of the settings that state the drift in a recording.
+/// Setting of a recording that states the drift, ppm; [`DRIFT_U`] states its standard uncertainty.
 const DRIFT: &str = "sensor_clock_drift_ppm";
 const DRIFT_U: &str = "sensor_clock_drift_u_ppm";
 
-/// Follower of the clock of one camera.
+/// Estimates and removes the drift of one camera's clock.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ClockFollower {
     block: Option<Block>,
-    /// Least offsets of complete blocks, the oldest first.
+    /// Least offset of each complete block, the oldest first.
     least: Vec<Offset>,
     /// Number of times that the blocks were merged.
     merged: i32,
     line: Option<Line>,
-    /// Offset of the clock before the drift correction, s; `None` until a drift is detected.
+    /// Time from stamp to arrival before the drift correction, s; `None` until a drift is detected.
     anchor_s: Option<f64>,
-    /// Drift removed from the last stamp, s, and this stamp as the camera sent it, s.
+    /// Drift removed from the last stamp, s. The field `last_s` is this stamp as the camera sent it, s.
     taken_off_s: f64,
     last_s: Option<f64>,
 }
@@ -63,7 +63,7 @@ struct Block {
     least: Offset,
 }
 
-/// Line through least offsets.
+/// Line through the least offsets of the blocks, over time.
 #[derive(Clone, Copy, Debug)]
 struct Line {
     /// A point of the line.
@@ -117,7 +117,7 @@ impl Line {
         self.middle.offset_s + self.slope * (at_s - self.middle.at_s)
     }
 
-    /// True if the slope is beyond its uncertainty, and possible for an oscillator.
+    /// True if the slope exceeds its uncertainty, and is small enough for an oscillator.
     fn shows_drift(&self) -> bool {
         let slope = self.slope.abs();
         slope > SHOWN * self.slope_u && slope <= PPM_MAX * 1e-6
@@ -125,7 +125,8 @@ impl Line {
 }
 
 impl ClockFollower {
-    /// Updates the line with the stamp of a frame that arrived at `now_s` or earlier, s. Returns the stamp without the drift since the first frames.
+    /// Updates the drift estimate with the stamp of a frame that arrived at `now_s` or earlier, s. Returns the stamp without the drift since the
+    /// first frames.
     pub(super) fn follow(&mut self, stamp: Stamp, now_s: f64) -> Stamp {
         let at_s = stamp.received_s.unwrap_or(now_s);
         self.see(Offset {
@@ -167,7 +168,8 @@ impl ClockFollower {
         ])
     }
 
-    /// Adds the offset of a frame to its block. The first frame after the end of a block begins the next block, so that no block spans a pause.
+    /// Adds the stamp-to-arrival time of a frame to its block. The first frame after the end of a block begins the next block, so that no block spans
+    /// a pause.
     fn see(&mut self, seen: Offset) {
         let lasts_s = (BLOCK_S * 2.0_f64.powi(self.merged)).min(BLOCK_MAX_S);
         if let Some(block) = self.block {
@@ -190,7 +192,7 @@ impl ClockFollower {
         }
     }
 
-    /// Adds the least offset of a complete block that lasts `lasts_s`, in s.
+    /// Adds the least offset in a complete block that lasts `lasts_s`, in s.
     fn close(&mut self, least: Offset, lasts_s: f64) {
         let is_later = self.least.last().is_none_or(|last| last.at_s < least.at_s);
         if !is_later {

@@ -1,4 +1,4 @@
-//! Methods that a wrapper of a device delegates to the wrapped device, which is in the named field.
+//! Macros that delegate methods of a device wrapper to the wrapped device. The argument of each macro is the field with this device.
 
 /// Delegates the methods of a robot that its wrapper does not change. The wrapper has the capabilities of the robot.
 macro_rules! delegate_robot {

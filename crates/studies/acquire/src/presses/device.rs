@@ -1,4 +1,4 @@
-//! Opens devices and describes them.
+//! Opens one device by its selector, and wraps it with checks of its time stamps.
 
 use taceva_core::{Descriptor, Device, DriverSource, Facts, Registry, Rig, SampleTiming};
 use taceva_drivers::{OpenError, Selector, open};
@@ -40,7 +40,8 @@ impl<D: ?Sized + 'static> Opened<D>
 where
     Late<D>: IntoDevice<D>,
 {
-    /// Corrects time stamps by `latency_ms` of the descriptor, if positive, and by the drift of a camera's clock. Checks the timing of samples.
+    /// Wraps the device: samples with a known latency get earlier time stamps, and the drift of a camera's clock is removed. The timing of samples is
+    /// checked.
     pub(crate) fn timely(
         self,
         is_emulated: bool,
@@ -59,7 +60,7 @@ where
     }
 }
 
-/// Timing checks of a real sensor or transducer; `None` for other devices. An emulated device delays its samples, so only jumps of its stamps are
+/// Timing checks of a real sensor or transducer; `None` for other devices. An emulated device may be late, so only jumps of its time stamps are
 /// checked.
 fn timing(descriptor: &Descriptor, is_emulated: bool) -> Option<SampleTiming> {
     let rate = match descriptor.facts() {
@@ -94,7 +95,7 @@ mod tests {
         format: PixelFormat::Gray8,
     };
 
-    /// Test device whose samples take the given times.
+    /// Test device that delays each sample by the next entry of `delays`.
     struct Slow {
         delays: std::vec::IntoIter<Duration>,
     }
@@ -201,7 +202,7 @@ mod tests {
         (count, None)
     }
 
-    /// Delays of `count` readings, each eleven periods of 200 Hz. Readings take even longer on a busy machine.
+    /// Delays of `count` readings: 55 ms each, which is eleven periods at 200 Hz.
     fn eleven_periods(count: usize) -> Vec<Duration> {
         vec![Duration::from_millis(55); count]
     }

@@ -34,7 +34,7 @@ pub(super) struct OpenRig {
     lighting: Option<Box<dyn Lighting>>,
     pub(super) surroundings: Surroundings,
     pub(super) force_driver: DriverKey,
-    /// True for a rig in real time. Guard threads then watch motions.
+    /// True for real devices. Guard threads then watch motions.
     is_real: bool,
     /// Rig file of a real rig, checked at the start of a session; `None` for other rigs.
     pub(super) rig_file: Option<Arc<RigFile>>,
@@ -44,19 +44,19 @@ pub(super) struct OpenRig {
     pub(super) late_halts: Option<String>,
 }
 
-/// A session at a rig: its workshop, its cancellation, and state from earlier units.
+/// A session at a rig: environment, cancellation flag, and state from earlier units.
 #[derive(Clone, Copy)]
 pub(super) struct Sitting<'a> {
     pub(super) workshop: Workshop<'a>,
     pub(super) cancel: &'a Cancel,
     /// True if the operator has enabled the robot in this process.
     pub(super) is_enabled: bool,
-    /// Reference touches of earlier sessions of the recording.
+    /// Measurements of the gel at reference places in earlier sessions of the recording.
     pub(super) touched: &'a [ReferenceTouch],
 }
 
 impl<'a> Sitting<'a> {
-    /// Creates a session before the robot is enabled, without earlier touches.
+    /// Creates a session whose robot is not yet enabled, and which has no earlier reference touches.
     pub(super) fn new(workshop: Workshop<'a>, cancel: &'a Cancel) -> Sitting<'a> {
         Sitting {
             workshop,
@@ -353,7 +353,7 @@ impl RigSpec {
             .any(|source| source == DriverSource::Simulated)
     }
 
-    /// True if all devices are simulated. Opening simulated devices to read facts has no effect on a real device.
+    /// True if all devices are simulated. Such devices may be opened to read their facts, because this affects no real device.
     pub(crate) fn is_only_simulated(&self, drivers: &Drivers) -> bool {
         self.sources(drivers)
             .all(|source| source == DriverSource::Simulated)

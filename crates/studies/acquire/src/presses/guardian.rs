@@ -1,12 +1,12 @@
 //! Guard threads of a run on real devices. They detect limits that are exceeded during a motion.
 //!
 //! One thread owns the force transducer: it shows each reading to the [`Supervisor`] and stores it for the run. Another thread reads the pose of the
-//! robot, over its own connection if the robot has a second connection, and the enabling switch. It also watches for missing readings and
-//! cancellation. Both threads halt through the supervisor, which makes all decisions.
+//! robot, over a second connection if the robot has one, and the enabling switch. This thread also watches for missing readings and cancellation.
+//! Both threads halt through the supervisor, which makes all decisions.
 //!
-//! The threads have the priority of the process. On a busy machine, a thread may wait for a tenth of a second. `chrt -f 10 taceva run …` reduces this wait to
-//! milliseconds. A turn is one reading by a thread. A turn or a halt that took too long is printed with its cause, and so are the counts of a session at its
-//! end.
+//! The threads have the priority of the process. On a busy machine, a thread may wait for a tenth of a second. `chrt -f 10 taceva run …` reduces this
+//! wait to milliseconds. A turn is one reading by a thread. The program prints each late turn and each late halt with its cause, and their counts
+//! when the session ends.
 
 mod causes;
 mod halt_counts;
@@ -35,13 +35,13 @@ use mailbox::{Listeners, Mailbox};
 use punctuality::Punctuality;
 use turn::{Turn, TurnTimer};
 
-/// Interval between readings of the robot; each reading waits for the next report. An interval of 10 ms, the period of an arm, would miss every
-/// second report. Detecting a frozen signal takes eight readings, each after a motion.
+/// Interval between pose readings; each reading then waits for the next report. An interval of 10 ms would miss every second report of an arm that
+/// reports every 10 ms. Detecting a frozen signal takes eight readings, each after a motion.
 const LOOK: Duration = Duration::from_millis(5);
 /// Deadline for each pose.
 const LOOK_DEADLINE: Deadline = Deadline::after(Duration::from_millis(20));
 
-/// Greatest distance of two poses at rest, in standard deviations of an axis.
+/// Greatest distance of two poses of a robot at rest, as a multiple of the noise of a pose.
 const POSE_NOISES: f64 = 5.0;
 
 /// Guarded devices, and the cancellation of their run.
@@ -60,8 +60,8 @@ pub(super) struct Guarded<'a> {
 }
 
 impl Guarded<'_> {
-    /// Calls `conduct`, which moves the robot, while guard threads watch. The threads end when `conduct` returns. Returns its result, and a warning if
-    /// halts were late.
+    /// Calls the closure `conduct`, which moves the robot, while guard threads watch. The threads end when `conduct` returns. Returns the result of
+    /// `conduct`, and a warning if halts were late.
     pub(super) fn conduct<T>(
         self,
         conduct: impl FnOnce(&mut dyn Robot, &mut dyn ForceTransducer, SharedSupervisor) -> T,
@@ -123,7 +123,7 @@ impl Guarded<'_> {
     }
 }
 
-/// Guard that sets a flag when it is dropped, which ends a thread.
+/// Guard that sets a flag when it is dropped. The flag ends a thread.
 pub(super) struct Over<'a>(&'a AtomicBool);
 
 impl<'a> Over<'a> {
@@ -138,11 +138,11 @@ impl Drop for Over<'_> {
     }
 }
 
-/// Watches for errors of the robot, the switch, missing readings and cancellation.
+/// Watches the robot and the switch, and detects missing readings and cancellation.
 struct Watcher<'a> {
     supervisor: &'a SharedSupervisor,
     punctuality: &'a Punctuality<'a>,
-    /// True if a motion was in progress at the end of the last turn of the thread, or during this turn.
+    /// True if a motion was in progress at the end of the last pose reading, or during this one.
     was_under_way: bool,
     /// True if the last turn of the thread found the robot halted because of a stale reading.
     was_stale: bool,
@@ -174,7 +174,7 @@ impl Watcher<'_> {
         self.follow_halt(call, self.was_under_way, Held::No, MonotonicClock.now_s());
     }
 
-    /// Records a late turn of the thread during a motion, a stale reading, and a halt.
+    /// Records that this turn of the thread was late, found a stale reading, or found a halt.
     fn time(&mut self, turn: &Turn) {
         let supervisor = self.supervisor.lock();
         let [is_under_way, was_under_way] = [supervisor.is_under_way(), self.was_under_way];
@@ -204,7 +204,7 @@ impl Watcher<'_> {
         self.follow_halt(call, is_under_way || was_under_way, held, turn.ended_s);
     }
 
-    /// Records a halt of a motion when its end is known.
+    /// Records a halt of a motion when the tip is at rest, or the wait for rest has ended.
     fn follow_halt(&mut self, call: Option<HaltCall>, is_under_way: bool, held: Held, now_s: f64) {
         let halted = self.follower.turn(call, is_under_way, held, now_s);
         if let Some(halted) = halted {
@@ -229,7 +229,7 @@ impl Watcher<'_> {
         }
     }
 
-    /// Reads the switch. A switch that cannot be read counts as lost.
+    /// Reads the enabling switch and reports its state to the supervisor. A switch that cannot be read counts as lost.
     fn feel(&mut self) {
         let Some(switch) = self.switch else {
             return;

@@ -30,7 +30,7 @@ pub(crate) struct Late<D: ?Sized> {
     latency_s: f64,
     driver: DriverKey,
     timing: SampleTiming,
-    /// Follower of the clock that stamps the frames of a real sensor. `None` for other devices.
+    /// Estimator of the clock drift in the frame stamps of a real sensor. `None` for other devices.
     follower: Option<ClockFollower>,
     device: Box<D>,
 }

@@ -29,7 +29,7 @@ pub(super) struct RecordedPresses {
 }
 
 impl RecordedPresses {
-    /// Continues `recorder` and `sessions` of the recording at `path`. `reduction` reduces frames; `None` records full frames.
+    /// Creates a log that continues `recorder` and `sessions` of the recording at `path`. `reduction` reduces frames; `None` records full frames.
     pub(super) fn new(
         path: &Path,
         recorder: Recorder,

@@ -32,8 +32,8 @@ fn is_held(held: Option<&Vec<String>>, name: &String) -> bool {
 }
 
 impl Changes {
-    /// Changes of a plan by hand and by changers: the sequence of units, and the specimens within a unit. A single specimen that is always mounted needs no
-    /// change by hand.
+    /// Changes that the operator makes by hand, and changes that changers make, in `plan`. A single specimen that is always mounted needs no change
+    /// by hand.
     fn of(plan: &Plan, is_lit_by_hand: bool, held: &Held) -> [Changes; 2] {
         let [mut by_hand, mut by_changer] = [Changes::default(), Changes::default()];
         for unit in &plan.units {
@@ -280,8 +280,7 @@ pub(super) fn stopped(plan: &Plan, error: RunError) -> AcquireError {
     }
 }
 
-/// Number of skipped presses, if these are the whole content of `error`. Returns any other error. Skipped presses do not keep later units from being
-/// pressed.
+/// Number of skipped presses if `error` states only that presses were skipped. Returns any other error. The presses of later units can still be made.
 pub(super) fn presses_skipped(error: AcquireError) -> Result<usize, AcquireError> {
     match &error {
         AcquireError::Acquisition { source, .. } => match source.cause {

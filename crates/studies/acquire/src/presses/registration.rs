@@ -1,4 +1,5 @@
-//! Converts devices of a rig file to the frame of the sensor. Poses are converted by the registration of the robot, and wrenches by the axes of the transducer.
+//! Wrappers that convert poses and wrenches to the frame of the sensor. The rig file states the position of the robot's base, and the axes of the
+//! transducer.
 
 use std::sync::Arc;
 
@@ -18,7 +19,8 @@ pub(super) struct Registered {
 }
 
 impl Registered {
-    /// Wraps `robot` with the registration of `registered`. A missing rotation of the tool is read from the robot within `deadline`.
+    /// Wraps `robot` with the registration in `registered`, which places its base frame relative to the sensor. A missing rotation of the tool is
+    /// read from the robot within `deadline`.
     ///
     /// # Errors
     /// [`DriverError`] if the robot reports no pose.
@@ -159,7 +161,7 @@ mod tests {
 
     use super::*;
 
-    /// Test robot that is at its last target, in its base frame.
+    /// Test robot that is always at its last target pose, in its base frame.
     struct Arm(Pose);
 
     struct Rests;

@@ -1,4 +1,4 @@
-//! Rehearsal of a scene. The tip visits every place above the gel, under the guard of a run. Nothing is pressed or recorded.
+//! Rehearsal of a scene. The tip visits every place above the gel, while guard threads watch. Nothing is pressed or recorded.
 
 use taceva_core::{Frame, Millimetre, SinkError};
 use taceva_protocol::{Cancel, ContentId, Event, Mode, PressLog, PressRecord, RunError, RunSpec};
@@ -9,7 +9,7 @@ use super::workshop::Workshop;
 use crate::error::AcquireError;
 use crate::scene::{PlannedScene, StudySource};
 
-/// Height of a rehearsal above the travel height, in mm. The tip does not touch the gel if the error of the origin is smaller.
+/// Height of a rehearsal above the travel height, in mm. The tip does not touch the gel if the rig file's origin is wrong by less than this height.
 pub const AIR_MM: f64 = 10.0;
 
 /// Visits every place of `scene` at [`AIR_MM`] above the travel height. Returns the number of places.

@@ -86,7 +86,7 @@ impl HeldRigs {
     }
 }
 
-/// Path of the lock file of a device. Blanks and the order of arguments have no effect.
+/// Path of the lock file of a device. Blanks in its selector and the order of arguments do not change the path.
 fn lock_path(folder: &Path, device: &str) -> PathBuf {
     let (driver, arguments) = device.split_once(':').unwrap_or((device, ""));
     let mut words: Vec<&str> = arguments.split(';').map(str::trim).collect();

@@ -7,7 +7,7 @@ use taceva_dataset::Session;
 use taceva_drivers::MonotonicClock;
 use taceva_protocol::{Plan, ReferenceTouch, SessionRecord};
 
-/// Row of a session that begins now.
+/// Creates the row of a session that begins now.
 pub(super) fn row(record: &SessionRecord) -> Session {
     let [zero_fx_n, zero_fy_n, zero_fz_n] = record.zero.force.map(|force| force.0);
     let [x_felt, y_felt] = record.pushes_felt;

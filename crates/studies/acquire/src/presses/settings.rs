@@ -20,7 +20,7 @@ impl OpenRig {
         settings
     }
 
-    /// Warnings of the devices about their readings, and about late halts, which the recording keeps.
+    /// Warnings to store in the recording: about readings of the devices, and about late halts.
     pub(super) fn warnings(&self) -> Vec<String> {
         let mut warnings = self.force.warnings();
         warnings.extend(self.robot.warnings());
@@ -48,7 +48,7 @@ impl OpenRig {
     }
 }
 
-/// Setting that names the driver of the sensor. Drivers of instruments for labels are stored with the certificates.
+/// Setting `sensor_driver` with the key of the sensor's driver.
 pub(crate) fn sensor_driver(key: &str) -> (String, String) {
     ("sensor_driver".to_owned(), key.to_owned())
 }

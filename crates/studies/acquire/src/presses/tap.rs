@@ -1,4 +1,4 @@
-//! Taps on the rig of a rig file. Threads record every device while the tip moves down and up, under the guard of a run.
+//! Records taps of the tip on the gel, with the devices of a rig file. Threads record every device while the tip moves, and guard threads watch.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -21,7 +21,7 @@ use crate::error::AcquireError;
 use crate::scene::{PlannedStudy, StudySource};
 
 const START: Deadline = Deadline::after(Duration::from_secs(2));
-/// Deadline for each pose and each frame. A call that misses it is retried.
+/// Deadline for each pose. A call that misses it is retried.
 const POSE: Deadline = Deadline::after(Duration::from_millis(50));
 const FRAME: Deadline = Deadline::after(Duration::from_millis(200));
 /// Delay before a failing device is retried.
@@ -175,7 +175,7 @@ impl Ears {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Adds a value to the tap in progress.
+    /// Lets `say` add a value to the tap in progress; does nothing between taps.
     fn hear(&self, say: impl FnOnce(&mut TapHeard)) {
         if let Some(heard) = &mut *self.lock() {
             say(heard);
@@ -183,7 +183,7 @@ impl Ears {
     }
 }
 
-/// Starts and stops the recording of taps.
+/// Starts and ends each entry in the shared recording of taps.
 struct Listener<'a> {
     ears: Ears,
     progress: &'a dyn taceva_core::Progress,
@@ -243,7 +243,7 @@ fn hear_frames(
     Ok(())
 }
 
-/// A transducer whose readings are also recorded in the tap.
+/// A transducer whose readings are also added to the tap in progress.
 struct Overheard<'a> {
     force: &'a mut dyn ForceTransducer,
     ears: Ears,

@@ -1,4 +1,4 @@
-//! Environment of presses other than devices: drivers, clocks and changers of specimens.
+//! Context in which presses are made: drivers, clock, changer of specimens, operator and viewer.
 
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
@@ -9,7 +9,7 @@ use taceva_protocol::{ContentId, Operator, SpecimenChanger, Timekeeper};
 
 use crate::viewer::Viewer;
 
-/// Parts of a rig other than its devices.
+/// Clock, gel and specimen changer of a rig.
 pub struct Surroundings {
     /// Clock that stamps the samples of the devices.
     pub clock: Box<dyn Timekeeper>,
@@ -19,9 +19,9 @@ pub struct Surroundings {
     pub upcoming: Option<Box<dyn FnMut(Upcoming)>>,
     /// Name of the gel in the recording; `None` if unknown.
     pub gel: Option<String>,
-    /// Simulated bench, if the rig is a simulated bench. Its clock also stamps a sensor of another bench.
+    /// Simulated bench of the rig; `None` for other rigs. Its clock also stamps the frames of a sensor that belongs to another bench.
     pub bench: Option<Arc<dyn SimulatedBench>>,
-    /// True if the gel is new in every process, and changes with each press of a process.
+    /// True if a simulated gel restarts as new in every process, and wears with each press.
     ///
     /// On such a rig, an interrupted run repeats the recorded presses at a place when it resumes. The run compares these presses with the recording,
     /// and does not record them twice.
@@ -29,7 +29,7 @@ pub struct Surroundings {
 }
 
 impl Surroundings {
-    /// Surroundings of a real rig: the monotonic clock of the machine, which cannot be set, and a gel that keeps its history.
+    /// Surroundings of a real rig. Its clock is the monotonic clock of the machine, and its gel is not new in each process.
     pub fn real() -> Surroundings {
         Surroundings {
             clock: Box::new(MachineTime),
@@ -60,8 +60,7 @@ impl Timekeeper for MachineTime {
 pub struct Upcoming {
     /// Id of the press.
     pub press: ContentId,
-    /// Start time on the clock of the rig, with sufficient time for every press. On a rig with a settable clock, presses have the same times with and without
-    /// interruption.
+    /// Planned start of the press, on the clock of the rig. If the clock can be set, an interrupted and resumed run has the same start times.
     pub begins: Duration,
 }
 
@@ -69,7 +68,7 @@ pub struct Upcoming {
 /// [`Surroundings::real`].
 pub type SurroundingsOf<'a> = &'a (dyn Fn(&Selector, &mut Rig) -> Option<Surroundings> + Sync);
 
-/// Environment of presses.
+/// Context in which presses are made.
 #[derive(Clone, Copy)]
 pub struct Workshop<'a> {
     /// Drivers of the program.

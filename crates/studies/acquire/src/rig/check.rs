@@ -20,17 +20,17 @@ use crate::presses::{FileOpener, add_settings};
 use crate::scene::{check_switch, is_untaught, open_switch};
 
 const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
-/// Motion that is halted, straight upward and away from the gel: its length, in mm, and its speed, in mm/s.
+/// Length, mm, of the upward motion that is halted. Its speed is [`WAY_MM_S`], mm/s.
 const WAY_MM: f64 = 5.0;
 const WAY_MM_S: f64 = 5.0;
-/// Duration for which the enabling switch must be held to end its check, and maximum wait for the hold.
+/// Duration for which the enabling switch must be held to end its check. The check waits for a hold for at most [`HOLD_PATIENCE_S`], s.
 const HELD: Duration = Duration::from_secs(1);
 const HOLD_PATIENCE_S: f64 = 10.0;
 /// Interval between readings of the switch while the robot moves.
 const FEEL: Duration = Duration::from_millis(5);
 /// Delay from the start of the motion to the halt.
 const INTO: Duration = Duration::from_millis(300);
-/// Age of readings at which a press is aborted: in periods, and the least value in ms.
+/// Age of readings at which a press is aborted, in periods; at least [`STALE_MS`], ms.
 const STALE_PERIODS: f64 = 3.0;
 const STALE_MS: f64 = 50.0;
 /// Minimum ratio of the stated noise to the measured noise.
@@ -195,7 +195,7 @@ impl RigCheck {
         }
     }
 
-    /// Reason why the robot must not move: a failed device, or a wrong origin with which an upward motion could go down. `None` without a reason.
+    /// Reason why the robot must not move: a failed device, or an origin so wrong that an upward motion could go down. `None` if it may move.
     fn obstacle(&self) -> Option<String> {
         let failed = self.problems.iter().filter(|problem| problem.is_failure());
         let failed: Vec<&str> = failed

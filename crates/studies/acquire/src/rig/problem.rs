@@ -32,7 +32,7 @@ pub enum RigProblem {
         /// Name of the device: `force`, `robot` or `sensor`.
         device: &'static str,
     },
-    /// Gaps between force readings would abort presses.
+    /// Force readings have gaps that would abort presses.
     Gaps {
         /// Longest gap, in ms.
         gap_ms: f64,

@@ -9,13 +9,13 @@
 pub struct Stream {
     /// Number of readings.
     pub count: usize,
-    /// Number of readings per second; 0 for fewer than two readings.
+    /// Mean number of readings per second; 0 for fewer than two readings.
     pub rate_hz: f64,
-    /// Longest gap between the time stamps of readings, in ms.
+    /// Longest gap between the time stamps of successive readings, in ms.
     pub gap_ms: f64,
     /// Greatest age of a reading on arrival, by its time stamp, in ms; below 0 for stamps of a clock that is ahead.
     pub late_ms: f64,
-    /// Greatest standard deviation of any component, in the unit of the reading; `None` for a device without numeric readings.
+    /// Greatest standard deviation among the components of a reading, in its unit; `None` for a device without numeric readings.
     pub noise: Option<f64>,
     /// Number of readings lost in transmission, as the driver counts them; `None` if it does not count them. A reading that this host replaced by a
     /// newer reading is not lost.

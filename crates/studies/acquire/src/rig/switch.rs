@@ -5,7 +5,7 @@ use std::time::Duration;
 use taceva_core::{DriverError, EnablingSwitch};
 use taceva_drivers::MonotonicClock;
 
-/// Interval between readings.
+/// Interval between readings of the switch.
 const LOOK: Duration = Duration::from_millis(10);
 
 /// Statistics of an enabling switch that is read every 10 ms.
@@ -18,7 +18,7 @@ pub struct SwitchCheck {
     pub held: u32,
     /// Number of presses and releases detected between readings.
     pub changes: u32,
-    /// Longest response time of a reading, in ms. The delay within the device is not included.
+    /// Longest time for one reading of the switch, in ms. The delay within the device is not included.
     pub longest_ms: f64,
 }
 

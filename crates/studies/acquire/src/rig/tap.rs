@@ -10,7 +10,7 @@ use crate::error::AcquireError;
 use crate::presses::{TappedRig, Workshop, tap_study, written_latencies_ms};
 use crate::scene::{Overrides, PlannedScene, SceneText, StudySource};
 
-/// Scene for taps: limits, speeds and the start of a session. The footprint is in the middle of the gel.
+/// Scene that plans the taps, with limits, speeds and the tests before the first tap. The gel is tapped in the middle.
 const SCENE: &str = r#"
 scene_version = 1
 name = "tap"
@@ -34,19 +34,19 @@ indentations = 1
 pub struct RigTap {
     /// True if the devices are emulated, as the rig file or the robot states.
     pub simulated: bool,
-    /// Number of taps with a clear edge in the readings of every device.
+    /// Number of taps used for the latencies. The readings of every device show when contact began and ended.
     pub taps: usize,
-    /// Reasons why other taps lack a clear edge. At most a quarter of all taps are dropped.
+    /// Reason for each other tap: a device does not show clearly when contact began or ended. At most a quarter of all taps are dropped.
     pub dropped: Vec<String>,
-    /// Number of dropped taps that were late, at most a fifth of all taps. They would increase the measured latency.
+    /// Number of dropped taps in which a signal still changed long after the tip rested. At most a fifth of all taps are dropped as late.
     pub late: usize,
     /// Previous latencies of robot, transducer and sensor, in ms, from the rig file, or otherwise from the drivers.
     pub before_ms: [f64; 3],
-    /// Remaining delay of the transducer relative to the robot.
+    /// Delay of the transducer relative to the robot that the previous latencies do not correct.
     pub force: Latency,
-    /// Remaining delay of the sensor relative to the robot.
+    /// Delay of the sensor relative to the robot that the previous latencies do not correct.
     pub sensor: Latency,
-    /// Latencies for the rig file.
+    /// Latencies to store in the rig file.
     pub latencies: RigLatencies,
     /// Settings of the sensor that were measured during the taps: the drift of its clock, and the standard uncertainty of this drift.
     pub settings: BTreeMap<String, String>,
@@ -121,7 +121,7 @@ pub fn tap_rig(path: &Path, workshop: Workshop<'_>) -> Result<RigTap, AcquireErr
     })
 }
 
-/// Rejects a rig that lacks a device to compare.
+/// Rejects a rig that lacks a robot, a transducer or a sensor.
 fn check_devices(rig: &RigFile) -> Result<(), AcquireError> {
     for (key, is_there) in [
         ("robot", rig.robot.is_some()),

@@ -1,4 +1,4 @@
-//! `rig check --weight`: compares the force of a known weight on the transducer with m·g.
+//! `rig check --weight`: the operator hangs a known mass on the transducer. The program compares the change of force with the weight of the mass.
 
 use std::time::Duration;
 
@@ -16,12 +16,12 @@ const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
 const READ_DEADLINE: Deadline = Deadline::after(Duration::from_millis(100));
 /// Standard acceleration of free fall, in m/s².
 const FREE_FALL_M_S2: f64 = 9.80665;
-/// Allowed difference between the measured change and the weight, as a share of the weight. It includes the weight's tolerance, a tilt of 10 degrees, and the
-/// calibration.
+/// Allowed difference between the measured change and the weight, relative to the weight. Causes are the tolerance of the mass, a tilt of 10 degrees,
+/// and the calibration.
 const DIFFERENCE: f64 = 0.03;
-/// Maximum share of the weight that noise and resolution may hide.
+/// Maximum effect of noise and resolution on the measured change, relative to the weight or the change, whichever is greater.
 const HIDDEN: f64 = 0.1;
-/// Maximum relative difference at which a factor is attributed to a wrong unit.
+/// Maximum relative difference from a factor in [`UNITS`] at which a wrong unit is reported.
 const NEAR: f64 = 0.05;
 /// Units that are often mistaken for newtons, each with its value in N.
 static UNITS: [(f64, &str); 4] = [
@@ -37,7 +37,7 @@ static UNITS: [(f64, &str); 4] = [
 pub struct RigWeight {
     /// True if the devices are emulated, as the rig file states.
     pub simulated: bool,
-    /// Comparison to store in the rig file.
+    /// Comparison of the force with the weight, to store in the rig file.
     pub weighing: Weighing,
     /// Change of the force along x, y and z of the sensor, in N.
     pub change_n: [f64; 3],
@@ -83,8 +83,8 @@ pub fn weigh_rig(
     })
 }
 
-/// Compares a weight with its force. Readings last for the time `lasts`, before and after the weight is hung. Returns the comparison and the change along each
-/// axis.
+/// Compares the weight of a mass with the change of force. Readings last for the time `lasts`, before and after the weight is hung. Returns the
+/// comparison and the change along each axis.
 fn weigh(
     force: &mut dyn ForceTransducer,
     operator: &mut dyn Operator,
@@ -114,7 +114,7 @@ fn weigh(
     Ok((weighing, change_n))
 }
 
-/// Mean force over the time `lasts` after a pause, and the standard error of Fz.
+/// Mean force along each axis, and the standard error of its z component, N. Waits for `lasts`, and then averages for `lasts`.
 fn resting(
     force: &mut dyn ForceTransducer,
     lasts: Duration,
@@ -232,7 +232,7 @@ mod tests {
         }
     }
 
-    /// Result of hanging 100 g on a transducer with the factors `n_per_g`.
+    /// Result of hanging 100 g on a transducer whose force along each axis is `n_per_g`, N per g.
     fn weighed(n_per_g: [f64; 3]) -> (Weighing, Option<String>) {
         let hung_g = AtomicU32::new(0);
         let mut scale = Scale {

@@ -1,4 +1,4 @@
-//! Values that replace values of a scene.
+//! Options of the command line that replace values of a scene.
 
 use std::path::PathBuf;
 
@@ -7,7 +7,7 @@ use taceva_protocol::{ModelSpec, Setting};
 
 use crate::error::AcquireError;
 
-/// Values that replace values of a scene.
+/// Values that replace the seed, the rig file, or the model settings of a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Overrides {
     /// Seed of all random draws of the scene; `None` keeps the seed of the scene.

@@ -14,16 +14,16 @@ use taceva_protocol::{
 /// Byte offset in the scene, if known, and the problem at this offset.
 pub(crate) type Refused = (Option<usize>, SceneProblem);
 
-/// Devices of a study, by name.
+/// Devices of a study, given by their selectors.
 #[derive(Clone, Debug)]
 pub(crate) struct RigSpec {
     pub(crate) sensor: Option<Setting<String>>,
     pub(crate) robot: Option<Setting<String>>,
     pub(crate) force: Option<Setting<String>>,
     pub(crate) lighting: Option<Setting<String>>,
-    /// True if the changers are also opened.
+    /// True if the run also opens the changers.
     pub(crate) changes: bool,
-    /// Sum of the forces of all presses on the gel before the measured ones, kN; `None` without `[protocol.wear]`.
+    /// Load of the gel before the first measured press, kN: the sum of the forces of all earlier presses. `None` without `[protocol.wear]`.
     load_kn: Option<f64>,
     seed: u64,
     /// Base folder of relative paths.
@@ -31,7 +31,7 @@ pub(crate) struct RigSpec {
 }
 
 impl RigSpec {
-    /// Returns the robot and the transducer without the sensor, to exchange the sensor.
+    /// Returns the robot and the transducer without the sensor and the lighting.
     pub(crate) fn without_sensor(&self) -> RigSpec {
         RigSpec {
             sensor: None,
@@ -75,7 +75,7 @@ impl RigSpec {
         }
     }
 
-    /// The same devices after the loads of `wear`. Each press since the gel was new counts with the force of a cycle.
+    /// Returns the same devices with a gel that has carried the loads of `wear`. Each earlier press counts as the force of one load cycle.
     pub(crate) fn after(self, wear: Option<&PlannedWear>) -> RigSpec {
         let load_kn = wear.map(|wear| f64::from(wear.presses_since_gel) * wear.force_n / 1000.0);
         RigSpec { load_kn, ..self }
@@ -93,7 +93,7 @@ impl RigSpec {
         }
     }
 
-    /// Descriptors of the devices.
+    /// Descriptors of the devices of `study`.
     pub(crate) fn info(&self, study: &Study, drivers: &Drivers) -> Result<RigInfo, Refused> {
         let units = study.units();
         if let (Some(sensor), [first, .., last]) = (&self.sensor, units.as_slice()) {

@@ -1,4 +1,4 @@
-//! A study on a worn gel of the simulated bench, pressed again by its own plan.
+//! A study whose planned presses are repeated on a worn gel of the simulated bench.
 
 use std::collections::BTreeSet;
 

@@ -66,7 +66,7 @@ pub(super) struct Bench {
     pub(super) plan: Plan,
     pub(super) cancel: Cancel,
     pub(super) events: Vec<Event>,
-    /// Numbers of the captures of a run in which the camera repeats its last frame.
+    /// Captures in which the camera repeats its last frame, numbered from the start of a run.
     pub(super) frozen: Range<u32>,
     /// Person who answers questions.
     pub(super) operator: Option<Box<dyn Operator>>,

@@ -1,4 +1,4 @@
-//! Signals of a real rig: noisy poses, temporary gaps of readings, and a robot that stops by itself.
+//! Tests of signals as a real rig has them: noisy poses, temporary gaps in readings, and a robot that stops by itself.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -14,7 +14,7 @@ use taceva_protocol::{DepthOrigin, DepthZero, ZeroUnknown};
 use taceva_protocol::{Event, Left, Mode, RunError, RunReport, StopCause, Trip};
 use taceva_protocol::{Motion, Plan, PlannedPress};
 
-/// A robot that reports its pose with uniform noise of ±0.05 mm per axis.
+/// Gel of a rig whose robot reports its pose with uniform noise of ±0.05 mm per axis.
 const JITTERED: Gel = Gel {
     pose_noise_mm: 0.05,
     ..SOFT
@@ -33,7 +33,7 @@ calibration = { points = 120, indentations = 4 }
 hysteresis = { points = 100, depth_step_mm = 0.4 }
 "#;
 
-/// Plan of 200 presses without pictures, for that robot.
+/// Plan of 200 presses without pictures, on the gel [`JITTERED`].
 fn plan() -> Plan {
     let mut plan = planned_scene(SCENE, 1, &JITTERED).expect("a plan");
     assert!(plan.presses.len() >= 200, "{}", plan.presses.len());
@@ -170,7 +170,8 @@ fn a_press_that_is_broken_off_three_times_ends_the_run() {
     assert_eq!(bench.events.iter().filter(redone).count(), 2);
 }
 
-/// A bench of thirty presses whose camera repeats frames during these captures, and its log after a run. Capture 18 begins a press.
+/// Runs thirty presses with a camera that repeats frames during `captures`. Returns the bench, its log, and the result of the run. Capture 18 begins
+/// a press.
 fn frozen(captures: Range<u32>) -> (Bench, Memory, Result<RunReport, RunError>) {
     let mut plan = planned_scene(SCENE, 1, &SOFT).expect("a plan");
     let is_indent = |press: &PlannedPress| matches!(press.press.motion, Motion::Indent(_));

@@ -1,4 +1,4 @@
-//! True depth of presses to the limit of depth, over a tilted gel whose force is noisy.
+//! Tests of the true depth of presses to the depth limit, on a tilted gel with noisy force readings.
 
 use taceva_core::{Nanometre, Phase};
 
@@ -7,13 +7,13 @@ use crate::simulation::gel::Gel;
 use crate::simulation::scenario::planned_scene;
 use taceva_protocol::{DepthOrigin, Mode, Motion, PhaseKind, PlannedPress, Waypoint};
 
-/// A gel that is tilted by about a degree, so that each search meets it at another part of a step.
+/// A gel that is tilted by about a degree. Each search for contact therefore meets the gel after another fraction of a search step.
 const TILTED: Gel = Gel {
     slope: 0.02,
     ..SOFT
 };
 
-/// The same gel with 2 N/mm. Its force has a standard deviation of 4 mN.
+/// The gel [`TILTED`] with a stiffness of 2 N/mm. Its force readings have a standard deviation of 4 mN.
 const STIFF: Gel = Gel {
     stiffness_n_mm: 2.0,
     noise_n: 0.007,
@@ -34,10 +34,10 @@ calibration = { points = 120, indentations = 4 }
 hysteresis = { points = 2, depth_step_mm = 0.4 }
 "#;
 
-/// Number of places.
+/// Number of places, each pressed once.
 const PLACES: usize = 100;
 
-/// Difference between the greatest true depth of presses to the limit and this limit, mm.
+/// Greatest true depth of presses to the depth limit, minus this limit, mm.
 fn excess_mm(gel: Gel, depth_from: DepthOrigin) -> f64 {
     let mut plan = planned_scene(SCENE, 1, &gel).expect("a plan");
     plan.contact.depth_from.value = depth_from;

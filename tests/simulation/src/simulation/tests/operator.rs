@@ -24,7 +24,7 @@ calibration = { points = 3, indentations = 1 }
 
 type Asked = Arc<Mutex<Vec<Question>>>;
 
-/// Answers by a rule, records the questions, and checks that the robot is halted meanwhile.
+/// Test operator that answers with a function and stores the questions. Checks that the robot is halted during a question.
 struct ScriptedOperator {
     world: Shared,
     asked: Asked,
@@ -40,7 +40,7 @@ impl Operator for ScriptedOperator {
     }
 }
 
-/// A bench with two specimens, and a person who gives these answers.
+/// A bench with two specimens, whose operator answers with `answer`. Also returns the list of questions.
 fn bench(answer: fn(&Shared, &Question) -> Answer) -> (Bench, Asked) {
     let mut plan = planned_scene(SCENE, 1, &SOFT).expect("a plan");
     let other = Specimen::Sphere {
@@ -96,7 +96,7 @@ fn what_is_skipped_is_left_for_another_run_and_everything_else_is_made() {
     assert_eq!(asked.lock().expect("whole").len(), 2);
 }
 
-/// A bench with one press that needs a manually set light; that press is in the middle and is skipped.
+/// Like [`bench`], but with one specimen, and a light that the operator must set for the middle press.
 fn with_a_skipped_light(answer: fn(&Shared, &Question) -> Answer) -> (Bench, Asked) {
     let (mut bench, asked) = bench(answer);
     let presses = &mut bench.plan.presses;

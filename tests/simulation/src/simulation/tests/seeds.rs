@@ -1,4 +1,4 @@
-//! Many seeds without a violation, and planted bugs that the oracle must find.
+//! Tests that many seeds violate no invariant, and that the oracle finds planted bugs.
 
 use crate::simulation::fault::{FaultCounts, FaultKind};
 use crate::simulation::oracle::{Checks, HALT_WITHIN_S, Violation};
@@ -34,8 +34,8 @@ fn five_hundred_seeds_pass_without_a_violation_and_strike_with_every_fault() {
     assert!(checks.slowest_halt_s <= HALT_WITHIN_S);
 }
 
-/// Seeds in which the force limit was exceeded under a frozen signal. They separate a retreating tip from an approaching one, and an
-/// invisible force from an ignored one.
+/// Plays seeds in which the force limit was exceeded under a frozen signal. The oracle must distinguish a retreating tip from an approaching tip. It
+/// must also distinguish a force that no reading showed from an ignored force.
 #[test]
 fn the_limit_is_passed_under_a_frozen_signal_by_no_more_than_is_stated() {
     for seed in [3074, 4881, 8150, 8592, 9366] {
@@ -57,7 +57,7 @@ fn a_seed_is_the_same_run_every_time() {
     }
 }
 
-/// Violations of the first seeds with a planted bug.
+/// Violations in the runs of seeds 0 to 59 with a planted bug.
 fn found_with(sabotage: Sabotage) -> Vec<Violation> {
     let reports = (0..60).map(|seed| simulate_with(seed, sabotage));
     reports.flat_map(|report| report.violations).collect()

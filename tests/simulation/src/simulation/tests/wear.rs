@@ -1,4 +1,4 @@
-//! Cycles of load that wear the gel, under the supervision of every press.
+//! Tests of load cycles that wear the gel. Each cycle is supervised like a press.
 
 use taceva_core::Millimetre;
 
@@ -7,7 +7,7 @@ use crate::simulation::gel::Gel;
 use crate::simulation::scenario::planned_scene;
 use taceva_protocol::{Mode, PlannedPress};
 
-/// A rig before the only stage of a scene with [`CYCLES`] of `load`.
+/// Bench for a scene with one wear stage of [`CYCLES`] load cycles. `load` states their kind, force and travel.
 fn worn(gel: Gel, load: &str) -> Bench {
     let scene = format!(
         r#"

@@ -1,4 +1,4 @@
-//! Tests of the script of a public client, as its registers show it.
+//! Tests of the script of a public client, through its input and output registers.
 
 use super::*;
 

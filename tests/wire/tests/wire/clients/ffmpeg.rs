@@ -1,4 +1,4 @@
-//! ffmpeg as the server of a stream, with the driver as its client.
+//! Tests that the camera driver works with ffmpeg as the server of a stream.
 
 use std::net::TcpListener;
 use std::process::{Child, Command, Stdio};
@@ -18,7 +18,7 @@ impl Drop for Served {
     }
 }
 
-/// A stream of a moving picture, 64×48 at 30 frames per second; `None` without ffmpeg.
+/// Starts ffmpeg as the server of a moving picture, 64×48 pixels at 30 frames per second; `None` without ffmpeg.
 fn served(port: u16) -> Option<Served> {
     let program = std::env::var_os("TACEVA_FFMPEG").unwrap_or_else(|| "ffmpeg".into());
     let url = format!("http://127.0.0.1:{port}/");

@@ -1,4 +1,4 @@
-//! `grbl-streamer`, a public client of GRBL, with the emulated machine.
+//! Tests that `grbl-streamer`, a public client of GRBL, works with the emulated machine.
 
 use taceva_wire::grbl::Emulator;
 use taceva_wire::{Arm, BenchOptions, WallBench};

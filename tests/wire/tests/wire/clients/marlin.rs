@@ -1,4 +1,4 @@
-//! `printrun`, a public client of printers, with the emulated one.
+//! Tests that `printrun`, a public client of printers, works with the emulated printer.
 
 use std::time::{Duration, Instant};
 

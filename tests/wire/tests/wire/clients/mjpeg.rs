@@ -1,4 +1,4 @@
-//! `mjpeg-streamer`, a public server of streams, with the driver as its client.
+//! Tests that the camera driver works with `mjpeg-streamer`, a public server of streams.
 
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
@@ -11,7 +11,7 @@ use super::python;
 
 const PATIENCE: Deadline = Deadline::after(Duration::from_secs(5));
 
-/// A server, ended on drop.
+/// Process of `mjpeg-streamer`, ended on drop.
 struct Server(Child);
 
 impl Drop for Server {

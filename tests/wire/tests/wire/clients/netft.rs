@@ -1,4 +1,4 @@
-//! `NetFT` and `pynetft`, public clients of ATI's boxes, with the emulated one.
+//! Tests that `NetFT` and `pynetft`, public clients of ATI's boxes, work with the emulated box.
 
 use taceva_needs::{Need, skip};
 use taceva_wire::control::Control;

@@ -1,4 +1,4 @@
-//! OctoPrint's virtual printer, with the Marlin driver as its client.
+//! Tests that the Marlin driver works with OctoPrint's virtual printer.
 
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ const PATIENCE: Deadline = Deadline::after(Duration::from_secs(20));
 /// Python of OctoPrint, as `.ci/install` installs it.
 const INSTALLED: &str = "../../target/printer/bin/python";
 
-/// A printer, ended on drop.
+/// Process with a virtual printer, ended on drop.
 struct Printer {
     process: Child,
     port: String,
@@ -26,7 +26,7 @@ impl Drop for Printer {
     }
 }
 
-/// The virtual printer; `None` if it is not installed.
+/// Starts the virtual printer; `None` if it is not installed.
 fn printer() -> Option<Printer> {
     let named = std::env::var_os("TACEVA_PRINTER").map(PathBuf::from);
     let python = named.unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join(INSTALLED));

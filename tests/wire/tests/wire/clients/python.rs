@@ -8,8 +8,8 @@ use taceva_needs::{Need, skip};
 /// Interpreter with the clients, as `.ci/install` installs it.
 const INSTALLED: &str = "../../target/clients/bin/python";
 
-/// The interpreter named by `TACEVA_PYTHON`, the one of `.ci/install`, or the one on the path, if it has `module`; otherwise the skip is
-/// recorded.
+/// Path of a Python interpreter that has `module`: the one named by `TACEVA_PYTHON`, installed by `.ci/install`, or on the path. Without any, records
+/// a skip.
 pub(crate) fn with(module: &str) -> Option<PathBuf> {
     let named = std::env::var_os("TACEVA_PYTHON").map(PathBuf::from);
     let installed = Path::new(env!("CARGO_MANIFEST_DIR")).join(INSTALLED);

@@ -1,4 +1,4 @@
-//! `ur-rtde`, a public client of Universal Robots, with the emulated controller.
+//! Tests that `ur-rtde`, a public client of Universal Robots, works with the emulated controller.
 
 use std::sync::Arc;
 
@@ -9,8 +9,8 @@ use taceva_wire::{Arm, BenchOptions, WallBench, WireError};
 
 use super::{address, python};
 
-/// Output of `script` with an arm of `version` whose speed slider is at `slider`; `registers` is its last argument. `None` without `module`, or
-/// if its ports are in use.
+/// Output lines of the Python `script` with an emulated arm of `version`. Its speed slider is at `slider`, and `registers` is an argument of the
+/// script. `None` without `module`, or if the ports are in use.
 fn said(
     module: &str,
     script: &str,
@@ -59,7 +59,7 @@ fn read(last: u8, version: [u32; 2], polyscope: &str) {
     assert_eq!(said, expected);
 }
 
-/// Checks the motions that the client asks for by its script on an arm of `version`, in the `lower` or `upper` registers.
+/// Checks the motions that the client commands through its script on an arm of `version`. `registers` selects the `lower` or `upper` registers.
 fn control(last: u8, version: [u32; 2], registers: &str) {
     let script = include_str!("ur_control.py");
     let Some(said) = said("rtde_control", script, last, version, 1.0, registers) else {

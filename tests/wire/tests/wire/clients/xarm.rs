@@ -1,4 +1,4 @@
-//! `xarm-python-sdk`, UFACTORY's own client, with the emulated arm.
+//! Tests that `xarm-python-sdk`, UFACTORY's own client, works with the emulated arm.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! `hid/scale` and `hid/pedal` on the kernel's HID layer.
+//! Tests of `hid/scale` and `hid/pedal` with the HID layer of a kernel.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -57,7 +57,7 @@ fn soon<T>(what: &str, mut attempt: impl FnMut() -> Option<T>) -> T {
     }
 }
 
-/// A scale that repeats the same report, as scales do.
+/// A scale that sends the same report repeatedly.
 struct Sending {
     is_over: Arc<AtomicBool>,
     thread: Option<JoinHandle<()>>,

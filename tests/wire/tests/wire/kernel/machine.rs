@@ -16,7 +16,7 @@ use super::modules;
 const INSTALLED: &str = "../../target/kernel";
 const QEMU: &str = "qemu-system-x86_64";
 const BUSYBOX: &str = "/bin/busybox";
-/// Modules that give the machine access to the files of this one.
+/// Kernel modules through which the virtual machine reads files of its host.
 const FILES: [&str; 3] = ["virtio_pci", "9pnet_virtio", "9p"];
 /// Longest run time of a machine with an emulated processor.
 const PATIENCE: Duration = Duration::from_secs(400);
@@ -29,7 +29,7 @@ struct Kernel {
 }
 
 impl Kernel {
-    /// The kernel in the folder named by `TACEVA_KERNEL`, or in that of `.ci/install`.
+    /// Kernel in the folder named by `TACEVA_KERNEL`, or in the folder that `.ci/install` creates; `None` without a kernel.
     fn find() -> Option<Kernel> {
         let named = std::env::var_os("TACEVA_KERNEL").map(PathBuf::from);
         let folder = named.unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join(INSTALLED));
@@ -86,7 +86,7 @@ pub(crate) fn carry_out(name: &str, wanted: &[&str]) {
     assert!(whole.contains("1 passed"), "in the machine:\n{whole}");
 }
 
-/// Initial files of the kernel: they load modules, mount the files of this machine and run the test.
+/// Archive with the initial files of the kernel. They load modules, mount the files of the host and run the test.
 fn initial(kernel: &Kernel, busybox: &[u8], name: &str, wanted: &[&str]) -> Vec<u8> {
     let wanted = [&FILES[..], wanted].concat();
     let modules = modules::in_order(&kernel.modules, &wanted);

@@ -1,4 +1,4 @@
-//! `camera/v4l2` on the kernel's emulated camera.
+//! Tests of `camera/v4l2` with the camera that a kernel emulates.
 
 use std::time::Duration;
 
@@ -12,7 +12,7 @@ use taceva_drivers::camera::v4l2::kernel::{Camera, ControlKind};
 use super::machine::carry_out;
 
 const PATIENCE: Deadline = Deadline::after(Duration::from_secs(60));
-/// Arguments of the emulated camera, at the sensor size that `vivid` supports.
+/// Driver arguments for the camera that the kernel module `vivid` emulates.
 const ARGUMENTS: &str = "device=/dev/video0;pixels=yuyv";
 const SIZE: FrameInfo = FrameInfo {
     width: 640,

@@ -1,4 +1,4 @@
-//! Controllers whose answers come byte by byte, twice or late, or in another version of the protocol.
+//! Tests of controllers whose answers arrive byte by byte, twice or late, or in another version of the protocol.
 
 use std::io::{Read, Write};
 use std::net::{Shutdown, SocketAddr, TcpListener, TcpStream};
@@ -15,14 +15,14 @@ use crate::waiting::support::{PATIENCE, lower, speed};
 #[cfg(unix)]
 use crate::waiting::{grbl, marlin};
 
-/// Arrival of what a controller says.
+/// Change that a proxy makes to the answers of a controller.
 #[derive(Clone, Copy, Debug)]
 enum Arrival {
-    /// In pieces of one byte.
+    /// Answers arrive in pieces of one byte.
     Bytewise,
-    /// Everything a second time.
+    /// Each piece of an answer arrives twice.
     Twice,
-    /// Later by [`LATE`].
+    /// Answers arrive later by [`LATE`].
     Late,
 }
 
@@ -30,7 +30,7 @@ const LATE: Duration = Duration::from_millis(15);
 /// Time within which an arm stands after an error.
 const STANDS: Duration = Duration::from_millis(300);
 
-/// Port of a proxy before `address`, from which everything arrives like `arrival`.
+/// Starts a proxy in front of the server at `address`, and returns its port. It changes the server's answers as `arrival` states.
 fn before(address: SocketAddr, arrival: Arrival) -> u16 {
     let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
     let port = listener.local_addr().expect("bound").port();
@@ -54,7 +54,7 @@ fn before(address: SocketAddr, arrival: Arrival) -> u16 {
     port
 }
 
-/// Path of a proxy before the serial line at `path`, from which everything arrives like `arrival`.
+/// Starts a proxy in front of the serial line at `path`, and returns its path. It changes the answers on the line as `arrival` states.
 #[cfg(unix)]
 fn before_line(path: &str, arrival: Arrival) -> String {
     use std::fs::File;
@@ -107,8 +107,8 @@ fn pass(mut from: impl Read, mut to: impl Write, arrival: Option<Arrival>) {
 }
 
 impl<E: Arm> Setup<E> {
-    /// Moves while what the port at `address` says comes like `arrival`: ends at the target, or in a typed error and at rest. True if it
-    /// arrived.
+    /// Moves the robot while a proxy changes the answers from `address`. The motion must end at the target, or in a typed error with the robot at
+    /// rest. Returns true if it arrived.
     fn arrives(&self, address: SocketAddr, arrival: Arrival) -> bool {
         let port = before(address, arrival);
         let direct = format!(";port={};", address.port());

@@ -1,4 +1,4 @@
-//! Expiring motions of every robot that supports them, which end by themselves if the host is silent.
+//! Tests of expiring motions of every robot that supports them. Such a motion ends by itself if the host is silent.
 
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -9,9 +9,9 @@ use taceva_wire::{Device, FaultKind, WallBench};
 use crate::waiting::setup::Setup;
 use crate::waiting::support::{PATIENCE, inject, lower, speed};
 
-/// Allowance for a machine that runs other tests: an arm observed as moving for longer fails.
+/// Time that a busy machine may add to a motion. A test fails if the arm moves for longer.
 const SLACK: Duration = Duration::from_millis(200);
-/// Environment variable with the arm of the host that is killed; the next one states its kind of motion.
+/// Environment variable with the driver arguments of the arm that a killed process moves. [`IS_EXPIRING`] states its kind of motion.
 const ARM: &str = "TACEVA_WIRE_DYING_HOST_ARM";
 const IS_EXPIRING: &str = "TACEVA_WIRE_DYING_HOST_EXPIRES";
 
@@ -25,7 +25,7 @@ fn wait_for_motion(bench: &WallBench) {
     }
 }
 
-/// Moves the arm named in the environment until the process is killed; does nothing if none is named.
+/// Moves the arm that the environment names, until another process kills this one. Does nothing if the environment names no arm.
 pub(crate) fn die_moving(factory: &dyn Factory<dyn Robot>) {
     let Ok(arguments) = std::env::var(ARM) else {
         return;
@@ -43,7 +43,7 @@ pub(crate) fn die_moving(factory: &dyn Factory<dyn Robot>) {
 }
 
 impl<E> Setup<E> {
-    /// An expiring motion ends at its target, and straight lines can follow.
+    /// Tests that an expiring motion ends at its target, and that straight lines can follow.
     pub(crate) fn ends_where_it_was_sent(&self) {
         let mut arm = self.open();
         let (home, _) = arm.pose(PATIENCE).expect("a pose");
@@ -69,7 +69,7 @@ impl<E> Setup<E> {
         }
     }
 
-    /// A halt stops an expiring motion and latches; motions are accepted once the halt is cleared.
+    /// Tests that a halt stops an expiring motion, and that motions are accepted only once the halt is cleared.
     pub(crate) fn is_halted_while_it_expires(&self) {
         let mut arm = self.open();
         let (home, _) = arm.pose(PATIENCE).expect("a pose");
@@ -96,7 +96,7 @@ impl<E> Setup<E> {
             .expect("it takes positions again");
     }
 
-    /// A silent link stops the arm, even without a confirmed stop.
+    /// Tests that a silent link stops the arm, even if no stop was confirmed.
     pub(crate) fn stands_where_its_link_falls_silent(&self) {
         let mut arm = self.open();
         let (home, _) = arm.pose(PATIENCE).expect("a pose");
@@ -117,7 +117,7 @@ impl<E> Setup<E> {
         });
     }
 
-    /// An arm stops within its expiry if its host is killed in the test `host`; on a straight line it moves on.
+    /// Tests that an expiring motion stops in time if its process is killed in the test `host`, and that an ordinary motion continues.
     pub(crate) fn stands_where_its_host_dies(&self, host: &str) {
         let expiring = self.goes_on_without_host(host, true);
         assert!(expiring <= EXPIRES + SLACK, "{expiring:?}");

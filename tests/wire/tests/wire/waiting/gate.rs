@@ -11,7 +11,7 @@ use taceva_wire::WallBench;
 
 use crate::waiting::support::{PATIENCE, lower, speed};
 
-/// Proxy between a driver and the port of an arm: while it is shut, messages of the driver on some connections wait.
+/// Proxy between a driver and the port of an arm. While it is shut, messages of the driver wait on the selected connections.
 pub(crate) struct Gate {
     is_shut: Mutex<bool>,
     opened: Condvar,
@@ -20,7 +20,8 @@ pub(crate) struct Gate {
 }
 
 impl Gate {
-    /// An open gate before `address`, and its port; it `holds` connections by number, from 0.
+    /// Starts an open gate in front of `address`. Returns the gate and its port. `holds` selects the connections on which messages may wait, by their
+    /// number from 0.
     pub(crate) fn before(address: SocketAddr, holds: fn(usize) -> bool) -> (Arc<Gate>, u16) {
         let gate = Arc::new(Gate {
             is_shut: Mutex::new(false),
@@ -84,7 +85,7 @@ pub(crate) fn halted_while_shut(gate: &Gate, bench: &WallBench, arm: &mut dyn Ro
     shut
 }
 
-/// Forwards the data of `from`, each part once `may` returns, until its end.
+/// Forwards the data of `from` to `to` until its end. Waits for `may` to return before each part.
 fn pass(mut from: TcpStream, mut to: TcpStream, may: impl Fn()) {
     let mut bytes = [0; 1024];
     while let Ok(count @ 1..) = from.read(&mut bytes) {

@@ -1,4 +1,4 @@
-//! Tests of every G-code machine.
+//! Tests that every emulated G-code machine must pass.
 
 use taceva_core::ErrorKind;
 use taceva_wire::{Arm, Device, FaultKind};
@@ -7,7 +7,7 @@ use crate::waiting::setup::Setup;
 use crate::waiting::support::{PATIENCE, inject, lower, moved, speed};
 
 impl<E: Arm> Setup<E> {
-    /// A press reaches the gel, and a rotation is rejected: there are three axes.
+    /// Tests that a press reaches the gel, and that a rotation is rejected, because the machine has three axes.
     pub(crate) fn presses_and_does_not_turn(&self) {
         let mut machine = self.open();
         let (home, _) = machine.pose(PATIENCE).expect("a pose");
@@ -23,7 +23,7 @@ impl<E: Arm> Setup<E> {
         assert_eq!(refused.expect_err("a turn").kind(), ErrorKind::OutOfRange);
     }
 
-    /// A machine that is silent for `lasts_ms` during a motion is held.
+    /// Tests that the driver stops a machine that is silent for `lasts_ms`, ms, during a motion.
     pub(crate) fn is_held_once_silent_for(&self, lasts_ms: u64) {
         let (error, _) = moved(&self.bench, &mut *self.open(), || {
             inject(&self.bench, Device::Robot, FaultKind::Silent, lasts_ms);
@@ -34,7 +34,7 @@ impl<E: Arm> Setup<E> {
         assert!(!truth.is_moving && truth.tip_mm[2] < -5.5, "{truth:?}");
     }
 
-    /// A line in use by another program, or by another part of this one, is rejected as busy, and is free again afterwards.
+    /// Tests that a serial line in use, by another program or by this one, is rejected as busy. The line is free again afterwards.
     pub(crate) fn is_busy_while_another_has_it(&self) {
         let first = self.open();
         let second = self.try_open().map(drop).expect_err("it is taken");
@@ -43,7 +43,7 @@ impl<E: Arm> Setup<E> {
         self.open();
     }
 
-    /// A line that another program has open without a lock is warned of, by the program's name.
+    /// Tests that the driver warns if another program has the line open without a lock. The warning contains the program's name.
     #[cfg(target_os = "linux")]
     pub(crate) fn warns_of_another_that_has_it_open(&self) {
         let (_, path) = self.arguments().split_once("port=").expect("a line");
@@ -64,7 +64,7 @@ impl<E: Arm> Setup<E> {
         assert!(self.open().warnings().is_empty());
     }
 
-    /// A path that is not a serial line is rejected with the matching error.
+    /// Tests that a path that is not a serial line is rejected with the matching error.
     pub(crate) fn refuses_what_is_no_line(&self) {
         let file = tempfile::NamedTempFile::new().expect("a file");
         let path = file.path().display();

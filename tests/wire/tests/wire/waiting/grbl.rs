@@ -1,4 +1,4 @@
-//! `gcode/grbl` with the emulated machine, through a pseudo-terminal.
+//! Tests of `gcode/grbl` with the emulated machine, through a pseudo-terminal.
 
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! Links that split or merge messages, skip numbers, or insert foreign bytes.
+//! Tests of links that split or merge messages, skip numbers, or insert foreign bytes.
 
 use std::net::Ipv4Addr;
 use std::time::{Duration, Instant};
@@ -23,7 +23,7 @@ pub(crate) const TYPED: [ErrorKind; 4] = [
 /// Duration of a link fault, ms.
 const BAD_MS: u64 = 300;
 
-/// Calls `act` with a started transducer of each kind over its bench, while the emulators run.
+/// Calls `act` with a started transducer of each kind and the simulated gel that it measures, while the emulators run.
 fn each_transducer(mut act: impl FnMut(&WallBench, &mut dyn ForceTransducer)) {
     let bench = WallBench::start(&BenchOptions::quiet(7)).expect("a bench");
     let sri = sri::Emulator::start(&bench, Ipv4Addr::LOCALHOST, 0).expect("a box");
@@ -124,7 +124,7 @@ fn bytes_of_others_and_absurd_lengths_are_typed_errors_and_readings_follow_them(
 }
 
 impl<E: Arm> Setup<E> {
-    /// A motion arrives although its reports are split and merged.
+    /// Tests that a motion arrives although its reports are split and merged.
     fn arrives_in_pieces_and_heaps(&self) {
         let mut arm = self.open();
         let (home, _) = arm.pose(PATIENCE).expect("a pose");
@@ -139,7 +139,7 @@ impl<E: Arm> Setup<E> {
         }
     }
 
-    /// Foreign bytes during a motion end in an arrival or a typed error, and the arm stands.
+    /// Tests that foreign bytes during a motion lead to an arrival or a typed error, and that the arm then stands.
     fn stands_among_bytes_of_others(&self) {
         for kind in [FaultKind::Foreign, FaultKind::Hostile] {
             let mut arm = self.open();

@@ -1,4 +1,4 @@
-//! `gcode/marlin` with the emulated printer, through a pseudo-terminal.
+//! Tests of `gcode/marlin` with the emulated printer, through a pseudo-terminal.
 
 use std::time::Duration;
 

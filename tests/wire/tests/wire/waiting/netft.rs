@@ -1,4 +1,4 @@
-//! `ati/netft` with the emulated box, through sockets.
+//! Tests of `ati/netft` with the emulated box, over sockets.
 
 use std::io::{Read, Write};
 use std::net::{Ipv4Addr, TcpListener, TcpStream, UdpSocket};
@@ -46,7 +46,7 @@ impl Setup {
         transducer
     }
 
-    /// Error of a box that does not open with these further arguments.
+    /// Error message of a box that does not open with the additional driver arguments `more`.
     fn refused(&self, more: &str) -> String {
         match opened(&format!("{}{more}", self.arguments())) {
             Ok(_) => panic!("opened a box that contradicts its selector"),
@@ -129,7 +129,7 @@ fn a_latched_threshold_is_a_warning_and_any_other_word_an_error_by_name() {
     );
 }
 
-/// The emulated box opened with a page that `changed` makes of its own, answer head included.
+/// Opens the emulated box with a settings page that `changed` makes from its own page. The page includes the head of the HTTP answer.
 fn opened_with_page(changed: impl FnOnce(String) -> Vec<u8>) -> Result<(), DriverError> {
     let setup = setup();
     let mut stream = TcpStream::connect(setup.emulator.page_address()).expect("a page");

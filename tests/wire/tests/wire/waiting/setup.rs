@@ -1,4 +1,4 @@
-//! An emulated robot over a quiet gel with its driver, and tests of every robot.
+//! Setup of an emulated robot over a gel without noise, and tests that every robot must pass.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -9,7 +9,7 @@ use taceva_wire::{Arm, BenchOptions, WallBench, WireError};
 
 use crate::waiting::support::{PATIENCE, lower, speed};
 
-/// A robot emulated by an `E`.
+/// An emulated robot with its simulated gel and its driver. `E` is the type of the emulator.
 pub(crate) struct Setup<E> {
     pub(crate) bench: WallBench,
     pub(crate) emulator: E,
@@ -18,7 +18,7 @@ pub(crate) struct Setup<E> {
 }
 
 impl<E> Setup<E> {
-    /// Starts a robot for the driver of `factory`; `arguments` returns its driver arguments.
+    /// Starts an emulated robot for the driver of `factory`. `arguments` returns the driver arguments for the emulator.
     pub(crate) fn with_arguments(
         factory: impl Factory<dyn Robot> + 'static,
         start: impl FnOnce(&WallBench) -> Result<E, WireError>,
@@ -55,14 +55,14 @@ impl<E> Setup<E> {
         self.try_open().expect("a robot")
     }
 
-    /// The driver passes the suite of all robots.
+    /// Tests that the driver passes the suite of all robots.
     pub(crate) fn passes_the_suite(&self) {
         let trial = Trial::with_arguments(self.arguments.clone());
         let report = conformance::robot(&*self.factory, &trial);
         assert!(report.passed(), "{report}");
     }
 
-    /// A halt from another thread stops it within `most`. It stays until the halt is cleared, and keeps its position.
+    /// Tests that a halt from another thread stops the robot within `most`. The robot stays halted until the halt is cleared, and keeps its position.
     pub(crate) fn is_halted_within(&self, most: Duration) {
         let mut robot = self.open();
         let (home, _) = robot.pose(PATIENCE).expect("a pose");
@@ -95,7 +95,7 @@ impl<E> Setup<E> {
         assert!(apart_mm.abs() < 0.02, "{apart_mm}");
     }
 
-    /// Another thread observes its motion: returns the robot and the watch.
+    /// Tests that another thread can observe a motion of the robot. Returns the robot and its watch handle.
     pub(crate) fn is_seen_to_move(&self) -> (Box<dyn Robot>, Arc<dyn RobotWatch>) {
         let mut robot = self.open();
         let watch = robot.watch_handle().expect("a robot that reports");

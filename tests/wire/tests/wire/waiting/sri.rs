@@ -1,4 +1,4 @@
-//! `sri/m8128` with the emulated box, through sockets.
+//! Tests of `sri/m8128` with the emulated box, over sockets.
 
 use std::io::{Read, Write};
 use std::net::{Ipv4Addr, TcpListener};

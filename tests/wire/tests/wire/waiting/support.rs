@@ -30,7 +30,8 @@ pub(crate) fn inject(bench: &WallBench, device: Device, kind: FaultKind, lasts_m
     });
 }
 
-/// Result of a motion of 15 mm at 2 mm/s during which `happens` is called, and the time from that call to the result.
+/// Moves the tip by 15 mm at 1.5 mm/s and calls `happens` during the motion. Returns the error that ends the motion, and the time from the call to
+/// this error.
 pub(crate) fn moved(
     bench: &WallBench,
     arm: &mut dyn Robot,

@@ -1,4 +1,4 @@
-//! `ur/rtde` with the emulated controller, through sockets.
+//! Tests of `ur/rtde` with the emulated controller, over sockets.
 
 use std::net::Ipv4Addr;
 use std::time::Duration;
@@ -119,7 +119,7 @@ fn a_halt_stops_the_arm_at_once_and_no_program_begins_after_it() {
     }
 }
 
-/// Time after which an unanswered stop counts as lost: a machine that paused for that long proves nothing.
+/// Time after which an unanswered stop counts as lost. If the machine paused for that long, the test is repeated.
 const LOST_AFTER: Duration = Duration::from_secs(2);
 const TRIES: u32 = 5;
 
@@ -131,7 +131,7 @@ fn a_stop_that_is_late_is_waited_for_so_that_it_ends_no_motion_after_the_halt() 
     );
 }
 
-/// Delays a stop on its connection. True if the delay was shorter than that.
+/// Delays a stop on its connection, and tests that motions wait for it. Returns false if the machine paused for longer than [`LOST_AFTER`].
 fn a_late_stop_is_waited_for() -> bool {
     let setup = setup();
     // The second script connection is the one for stops.
@@ -270,7 +270,7 @@ fn states_that_fall_silent_let_an_expiring_motion_stand() {
     setup().stands_where_its_link_falls_silent();
 }
 
-/// Moves the arm named in the environment until the process is killed; does nothing if none is named.
+/// Moves the arm that the environment names, until another process kills this one. Does nothing if the environment names no arm.
 #[test]
 fn the_host_that_dies() {
     die_moving(&UrFactory::new().expect("a factory"));

@@ -1,4 +1,4 @@
-//! `ufactory/xarm` with the emulated control box.
+//! Tests of `ufactory/xarm` with the emulated control box.
 
 mod contract;
 mod expiring;

@@ -1,10 +1,10 @@
 use super::*;
 
-/// Period of the frames, s, and the least delay from a stamp to the arrival, s.
+/// Period of the frames, s. The least delay from a stamp to the arrival is [`LEAST_S`], s.
 const PERIOD_S: f64 = 0.04;
 const LEAST_S: f64 = 0.012;
 
-/// Delay of frame `number` beyond the least, s: none for one frame in five, and up to 8 ms for the others. Always the same.
+/// Reproducible delay of frame `number` in addition to [`LEAST_S`], s: about none for one frame in five, and up to 8 ms for the others.
 fn delay_s(number: u32) -> f64 {
     match number % 5 {
         0 => 1e-5 * f64::from(number * 7919 % 13),
@@ -12,11 +12,11 @@ fn delay_s(number: u32) -> f64 {
     }
 }
 
-/// Frames of a camera in time, by the time of this machine.
+/// Simulated camera that sends frames to a clock follower.
 struct Session {
     follower: ClockFollower,
     number: u32,
-    /// Time by the camera's clock less the time by the machine's, s.
+    /// Time of the camera's clock minus the true time, s.
     ahead_s: f64,
 }
 
@@ -29,7 +29,8 @@ impl Session {
         }
     }
 
-    /// Takes frames for `lasts_s` while the clock drifts by `ppm` and every frame is late by `extra_s` more. Returns the errors of the followed stamps.
+    /// Sends frames for `lasts_s`, s, while the clock drifts by `ppm`. Every frame is delayed by an additional `extra_s`, s. Returns the errors of
+    /// the corrected stamps.
     fn take(&mut self, lasts_s: f64, ppm: f64, extra_s: f64) -> Errors {
         let (mut errors, mut last_s) = (Vec::new(), f64::NEG_INFINITY);
         let mut left_s = lasts_s;
@@ -64,7 +65,7 @@ impl Session {
     }
 }
 
-/// Errors of followed stamps, s.
+/// Last and greatest error of the corrected stamps, s.
 struct Errors {
     last_s: f64,
     greatest_s: f64,

@@ -15,7 +15,7 @@ pub(super) enum Cause {
     Unknown,
 }
 
-/// Counts by cause.
+/// Number of late events for each cause.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct CauseCounts {
     kernel: u64,

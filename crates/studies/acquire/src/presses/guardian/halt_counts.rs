@@ -3,24 +3,23 @@
 use super::causes::{Cause, CauseCounts, remedy};
 use super::halts::Halted;
 
-/// Maximum number of lines about single halts.
+/// Maximum number of late halts that are logged with a line each.
 const MOST_LINES: u32 = 10;
 
-/// Halts of a session.
+/// Number and longest durations of the halts of a session.
 #[derive(Debug, Default)]
 pub(super) struct HaltCounts {
     halts: u64,
-    /// Longest call, s.
+    /// Longest duration of a driver's halt call, s.
     call_s: f64,
-    /// Longest time until a reported rest, s; `None` without such a report.
+    /// Longest time from the decision to halt until the tip rested, s; `None` if no rest was reported.
     rest_s: Option<f64>,
     late: CauseCounts,
     lines: u32,
 }
 
 impl HaltCounts {
-    /// Counts a halt of a thread with the scheduling policy `policy`. Returns a line for the log if it was late, unless there were more than
-    /// `MOST_LINES`.
+    /// Counts a halt of a thread with the scheduling policy `policy`. Returns a log line for each of the first `MOST_LINES` late halts.
     pub(super) fn add(&mut self, halted: &Halted, policy: &str) -> Option<String> {
         self.halts += 1;
         let call_s = halted.call.took_s();
@@ -35,7 +34,7 @@ impl HaltCounts {
         (self.lines <= MOST_LINES).then(|| words(halted, cause, policy))
     }
 
-    /// Counts of the session in one line; `None` without a halt.
+    /// Counts of the session's halts in one line; `None` without a halt.
     pub(super) fn summary(&self) -> Option<String> {
         let rest = self.rest_s.map_or(String::new(), |rest_s| {
             format!(", at rest within {:.1} ms", rest_s * 1e3)

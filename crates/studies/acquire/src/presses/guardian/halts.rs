@@ -9,21 +9,21 @@ use taceva_drivers::MonotonicClock;
 use super::causes::Cause;
 use super::thread_facts::{ProcessorQueue, ThreadTimes};
 
-/// Longest call that is in time, s.
+/// Longest duration of a driver's halt call that counts as in time, s.
 const CALL_S: f64 = 0.02;
-/// Longest time from the decision to halt until rest that is in time, s, as every driver promises.
+/// Longest time from the decision to halt until the tip rests, s. Every driver promises to stop within this time.
 const REST_S: f64 = 0.05;
 /// Time after the decision to halt during which poses are read, s.
 const FOLLOWED_S: f64 = 0.2;
-/// Greatest distance between two reports of a tip at rest, mm; the noise of a pose replaces a smaller limit.
+/// Greatest distance between two reported poses of a tip at rest, mm. If the noise of a pose is greater, the noise is used.
 const RESTS_MM: f64 = 1e-3;
 
 thread_local! {
-    /// Processor times of the halting thread. Their file is opened before a halt, because a halt must not wait for the file system.
+    /// Reader of the processor times of the halting thread. Its file is opened before a halt, because a halt must not wait for the file system.
     static TIMES: OnceCell<ProcessorQueue> = const { OnceCell::new() };
 }
 
-/// Opens the processor times of the calling thread, so that its halts can state a cause.
+/// Opens the file with the processor times of the calling thread, so that a late halt of this thread can state a cause.
 pub(super) fn prepare_this_thread() {
     // While a thread ends, its times are no longer accessible.
     let _ = TIMES.try_with(|times| {
@@ -31,7 +31,7 @@ pub(super) fn prepare_this_thread() {
     });
 }
 
-/// Call of a driver's halt.
+/// Times of one call of a driver's halt function.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct HaltCall {
     pub(super) decided_s: f64,
@@ -46,32 +46,32 @@ pub(super) struct Halted {
     pub(super) call: HaltCall,
     /// Time from the decision to halt until the first report of a tip at rest, s; `None` if no report showed it.
     pub(super) rest_s: Option<f64>,
-    /// Time from the decision to halt until the last report that was followed by further motion, s; 0 without such a report.
+    /// Time from the decision to halt until the last report after which the tip still moved, s; 0 without such a report.
     pub(super) moved_s: f64,
 }
 
-/// First call of a halt, until the watcher takes it. The supervisor is locked during each call.
+/// Times of the first halt call since the guard thread last read them, if any.
 #[derive(Debug, Default)]
 pub(super) struct HaltCalls(Mutex<Option<HaltCall>>);
 
-/// Halt of a robot that records its calls.
+/// Wrapper that halts a robot and records the times of the call.
 pub(super) struct TimedHalt {
     robot: Arc<dyn Halt>,
     calls: Arc<HaltCalls>,
 }
 
-/// State of a halted robot, for its follower.
+/// State of the robot with respect to halts.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Held {
-    /// Free to move.
+    /// The robot is free to move.
     No,
-    /// Held by a halt at an unknown pose.
+    /// A halt holds the robot at an unknown pose.
     Unseen,
-    /// Held by a halt, with the newest pose.
+    /// A halt holds the robot at this pose, reported with this stamp.
     At(Pose, Stamp),
 }
 
-/// Halt whose end is awaited.
+/// Follows the poses of a robot after a halt until the tip rests.
 #[derive(Debug, Default)]
 pub(super) struct HaltFollower {
     /// Noise of a pose at rest, mm.
@@ -80,7 +80,7 @@ pub(super) struct HaltFollower {
     /// Last pose after the decision to halt, and its time in s; `None` before this pose.
     seen: Option<(Pose, f64)>,
     moved_s: f64,
-    /// True from the first halt until the robot may move again, or its motion ends. Each later reading halts again.
+    /// True from the first halt until the robot may move again, or its motion ends. Until then, further halts are repetitions of the first.
     is_repeated: bool,
     /// True if the robot was held in the last turn of the guard thread.
     was_held: bool,
@@ -130,7 +130,7 @@ impl HaltCall {
         self.returned_s - self.decided_s
     }
 
-    /// Cause of the delay of a call; `None` for a call in time.
+    /// Cause of the delay of a halt call; `None` for a call in time.
     fn late(&self) -> Option<Cause> {
         let took_s = self.took_s();
         (took_s > CALL_S).then(|| match self.spent {
@@ -149,14 +149,14 @@ impl Halted {
         self.call.late().or(moved_on)
     }
 
-    /// True if a report shows that the tip moved for too long. A late first report of rest is not sufficient, because it may have been read late.
+    /// True if reports show that the tip still moved after `REST_S`. A late report of rest alone is no evidence, because it may have been read late.
     pub(super) fn moved_on(&self) -> bool {
         self.moved_s > REST_S
     }
 }
 
 impl HaltFollower {
-    /// Follower of a robot whose poses have the noise `slack_mm` at rest.
+    /// Creates a follower for a robot whose poses have the noise `slack_mm`, mm, at rest.
     pub(super) fn new(slack_mm: f64) -> HaltFollower {
         HaltFollower {
             slack_mm,
@@ -164,8 +164,8 @@ impl HaltFollower {
         }
     }
 
-    /// Processes one turn of the guard thread: a halt since the last turn, the presence of a motion, and the state of the robot. A robot that may
-    /// move again has no rest time. Returns a halt whose end is known or no longer awaited; `None` otherwise.
+    /// Processes one turn of the guard thread. `call` is a halt since the last turn, and `is_under_way` states that the robot moves. Returns a halt
+    /// when the tip rests, the robot may move again, or `FOLLOWED_S` has passed.
     pub(super) fn turn(
         &mut self,
         call: Option<HaltCall>,
@@ -198,7 +198,7 @@ impl HaltFollower {
         })
     }
 
-    /// Time from the decision to halt until the previous report, s, if the tip has not moved since that report; `None` otherwise.
+    /// Time from the decision to halt until the tip rested, s: the time of the previous report, if the tip has not moved since. `None` otherwise.
     fn rest_s(&mut self, pose: &Pose, valid_s: f64, decided_s: f64) -> Option<f64> {
         if let Some((seen, seen_s)) = self.seen {
             if valid_s <= seen_s {

@@ -92,7 +92,7 @@ pub(super) struct Listeners<'a> {
 }
 
 impl Listeners<'_> {
-    /// Informs an operator who is being asked a question that the force is lost.
+    /// Informs the operator and the viewer that the force is lost.
     fn lose(&self, error: &DriverError) {
         let remedy = plugin_remedy(error)
             .unwrap_or_else(|| "check cable and power of the transducer".to_owned());

@@ -3,7 +3,7 @@
 use super::causes::{Cause, CauseCounts, remedy};
 use super::turn::{Late, Turn};
 
-/// Maximum number of lines about single misses. A busy machine may have hundreds of misses.
+/// Maximum number of late turns and stale readings that are logged with a line each. A busy machine may have hundreds of them.
 const MOST_LINES: u32 = 10;
 /// Wait before a stale reading is attributed to the device, s. Until then, a late turn of the guard thread may still explain it.
 const SETTLED_S: f64 = 0.2;
@@ -27,8 +27,8 @@ struct Stale {
 }
 
 impl Misses {
-    /// Counts a late turn of the guard of `signal`, whose thread has the scheduling policy `policy`. Returns a line for the log unless there were
-    /// more than `MOST_LINES`.
+    /// Counts a late turn of the guard of `signal`, whose thread has the scheduling policy `policy`. Returns a log line for each of the first
+    /// `MOST_LINES` misses.
     pub(super) fn turn(
         &mut self,
         signal: &str,
@@ -67,7 +67,7 @@ impl Misses {
         }
     }
 
-    /// Counts a stale reading that no late turn explains. Returns a line for the log unless there were more than `MOST_LINES`.
+    /// Counts a stale reading that no late turn explains. Returns a log line for each of the first `MOST_LINES` misses.
     pub(super) fn settle(&mut self, now_s: f64) -> Option<String> {
         let stale = self
             .stale
@@ -79,7 +79,7 @@ impl Misses {
         self.count(Cause::Device, words)
     }
 
-    /// Counts of the session in one line; `None` without a miss.
+    /// Numbers of late turns and stale readings in the session, in one line; `None` without any.
     pub(super) fn summary(mut self) -> Option<String> {
         if self.stale.is_some() {
             self.counts.add(Cause::Device);

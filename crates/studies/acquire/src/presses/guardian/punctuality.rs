@@ -1,5 +1,5 @@
-//! Shows late turns, stale readings and late halts of a session with their causes, and their counts at its end. Guard threads only store
-//! lines: a terminal or pipe may block the writing thread.
+//! Shows late turns, stale readings and late halts with their causes, and shows their counts when the session ends. Guard threads only store lines: a
+//! terminal or pipe may block the writing thread.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -26,7 +26,7 @@ pub(super) struct Punctuality<'a> {
 struct Noted {
     misses: Misses,
     halts: HaltCounts,
-    /// Lines that are not shown yet.
+    /// Log lines that are not shown yet.
     lines: Vec<String>,
 }
 
@@ -100,7 +100,7 @@ impl<'a> Punctuality<'a> {
 mod tests {
     use super::*;
 
-    /// Progress that keeps its remarks.
+    /// Test observer that stores remarks.
     #[derive(Default)]
     struct Remarks(Mutex<Vec<String>>);
 
@@ -113,7 +113,7 @@ mod tests {
         }
     }
 
-    /// Turn from 10 s on, of which the thread waited for a processor for half of the time.
+    /// Turn that began at 10 s and took `took_s`. Its thread waited for a processor for half of this time.
     fn turn(took_s: f64) -> Turn {
         Turn {
             began_s: 10.0,

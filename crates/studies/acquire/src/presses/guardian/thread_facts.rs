@@ -17,7 +17,7 @@ impl ProcessorQueue {
         Some(self.times()?.queued_s)
     }
 
-    /// Times since the start of the thread; `None` if the system does not state them.
+    /// Times of the thread since its start; `None` if the system does not state them.
     pub(super) fn times(&self) -> Option<ThreadTimes> {
         let mut file = self.0.as_ref()?;
         let mut bytes = [0; 128];
@@ -30,9 +30,9 @@ impl ProcessorQueue {
 /// Times of a thread, s.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct ThreadTimes {
-    /// Time on a processor.
+    /// Time for which the thread ran on a processor, s.
     pub(super) ran_s: f64,
-    /// Time for which the thread could run and had no processor.
+    /// Time for which the thread was ready to run but had no processor, s.
     pub(super) queued_s: f64,
 }
 
@@ -50,7 +50,7 @@ impl ThreadTimes {
         })
     }
 
-    /// Times from `before` until now.
+    /// Times of the thread between `before` and `self`.
     pub(super) fn since(&self, before: &ThreadTimes) -> ThreadTimes {
         ThreadTimes {
             ran_s: self.ran_s - before.ran_s,
@@ -65,9 +65,9 @@ pub(super) fn policy() -> &'static str {
     policy_of(&stat)
 }
 
-/// Policy in `stat`. The name of the thread, in brackets, may have blanks.
+/// Scheduling policy in `stat`, the text of `/proc/thread-self/stat`. The thread's name, in parentheses, may have blanks.
 fn policy_of(stat: &str) -> &'static str {
-    /// Number of the field with the policy in `stat`, and number of the first field after the name.
+    /// Numbers of fields in `stat`, counted from 1: `FIELD` contains the policy, and `FIRST` follows the name of the thread.
     const FIELD: usize = 41;
     const FIRST: usize = 3;
     let behind = stat.rsplit_once(')').map_or("", |(_, behind)| behind);

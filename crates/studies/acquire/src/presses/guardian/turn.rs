@@ -9,7 +9,7 @@ use super::thread_facts::ProcessorQueue;
 
 /// Maximum duration of a punctual turn, s: the age from which a reading is stale.
 const LONGEST_S: f64 = 0.05;
-/// Maximum intended rest and wait of a turn, s.
+/// Maximum time that a turn is planned to rest and to wait for a reading, s.
 const INTENDED_S: f64 = 0.025;
 
 /// Times of a turn on the monotonic clock, s.
@@ -80,12 +80,12 @@ impl TurnTimer {
         }
     }
 
-    /// Excludes the waiting time since the end of the last turn from the next turn.
+    /// Restarts the count of the time for which the thread waits for a processor. The next turn then does not include earlier waits.
     pub(super) fn restart(&mut self) {
         self.queued_s = self.queue.waited_s();
     }
 
-    /// Begins a turn with a rest.
+    /// Begins a turn, and sleeps for `rest`.
     pub(super) fn begin(&mut self, rest: Duration) {
         self.began_s = MonotonicClock.now_s();
         self.due_s = self.began_s + rest.as_secs_f64();
@@ -95,7 +95,7 @@ impl TurnTimer {
         self.awake_s = MonotonicClock.now_s();
     }
 
-    /// Ends the turn.
+    /// Ends the turn, and returns its times.
     pub(super) fn end(&mut self) -> Turn {
         let ended_s = MonotonicClock.now_s();
         let queued_s = self.queue.waited_s();
@@ -116,7 +116,7 @@ impl TurnTimer {
 mod tests {
     use super::*;
 
-    /// Turn that rests until 5 ms and waits for a reading, with these times in ms.
+    /// Turn that began at 100 s and rested until 5 ms later. It woke after `awake_ms` and ended after `ended_ms`.
     fn turn(awake_ms: f64, ended_ms: f64, queued_ms: Option<f64>) -> Turn {
         Turn {
             began_s: 100.0,

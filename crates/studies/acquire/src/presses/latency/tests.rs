@@ -1,4 +1,4 @@
-//! Tests of the wrappers.
+//! Tests of the wrappers that correct and check time stamps.
 
 use taceva_core::Halt;
 

@@ -1,4 +1,4 @@
-//! Contract of every robot, and behaviour specific to this one.
+//! Tests that the xArm driver meets the contract of every robot, and tests specific to this driver.
 
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! Velocities of the tip that expire.
+//! Tests of velocities of the tip that expire.
 
 use taceva_drivers::ufactory::xarm::XarmFactory;
 use taceva_wire::xarm::Ports;
@@ -30,7 +30,7 @@ fn a_link_that_falls_silent_lets_the_arm_stand_though_no_stop_is_confirmed() {
     setup(Ports::ANY).stands_where_its_link_falls_silent();
 }
 
-/// Moves the arm named in the environment until the process is killed; does nothing if none is named.
+/// Moves the arm that the environment names, until another process kills this one. Does nothing if the environment names no arm.
 #[test]
 fn the_host_that_dies() {
     die_moving(&XarmFactory::new().expect("a factory"));

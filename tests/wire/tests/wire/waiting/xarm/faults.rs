@@ -1,4 +1,4 @@
-//! Failing controllers and failing links.
+//! Tests of failing controllers and failing links.
 
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
@@ -164,7 +164,7 @@ fn an_arm_that_goes_away_is_disconnected() {
     assert!(handle.halt().is_ok(), "there is nothing left to stop");
 }
 
-/// Result of opening if every client gets `answer` to any request.
+/// Error of opening a controller that sends `answer` to every client, whatever the request.
 fn opened_against(answer: &'static [u8]) -> DriverError {
     let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
     let port = listener.local_addr().expect("bound").port();

@@ -1,4 +1,4 @@
-//! Late stops, late reports, and a silent stop connection.
+//! Tests of late stops, late reports, and a silent connection for stops.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -12,7 +12,7 @@ use crate::waiting::gate::{Gate, halted_while_shut};
 use crate::waiting::setup::Setup;
 use crate::waiting::support::{PATIENCE, lower, speed};
 
-/// An arm, a gate in front of it, and the driver.
+/// Starts an emulated arm behind a gate that can hold connections. Returns both, and the opened driver.
 fn behind_a_gate(holds: fn(usize) -> bool) -> (Setup<Emulator>, Arc<Gate>, Box<dyn Robot>) {
     let setup = setup(Ports::ANY);
     let address = setup.emulator.address(Port::Command);
@@ -26,7 +26,7 @@ fn behind_a_gate(holds: fn(usize) -> bool) -> (Setup<Emulator>, Arc<Gate>, Box<d
     (setup, gate, arm)
 }
 
-/// Time after which a sent command counts as lost: a machine that paused for that long proves nothing.
+/// Time after which a sent command counts as lost. If the machine paused for that long, the test is repeated.
 const LOST_AFTER: Duration = Duration::from_secs(2);
 const TRIES: u32 = 5;
 

@@ -5,13 +5,13 @@ use taceva_wire::xarm::{Emulator, Port, Ports};
 
 use crate::waiting::setup::Setup;
 
-/// An arm over a quiet gel.
+/// Starts an emulated arm over a gel without noise, on the ports `ports`.
 pub(crate) fn setup(ports: Ports) -> Setup<Emulator> {
     let factory = XarmFactory::new().expect("a factory");
     Setup::with_arguments(factory, |bench| Emulator::start(bench, ports), arguments)
 }
 
-/// Driver arguments of this arm.
+/// Driver arguments for the emulated arm `arm`.
 fn arguments(arm: &Emulator) -> String {
     let port = |port| arm.address(port).port();
     let [command, pose, status, rich] =

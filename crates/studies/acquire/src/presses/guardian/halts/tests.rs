@@ -6,7 +6,7 @@ use taceva_core::{Millimetre, Point};
 
 use super::*;
 
-/// Call of 100 s that took `took_ms`, of which the thread waited for a processor for `queued_ms` and ran for `ran_ms`.
+/// Halt call that began at 100 s and took `took_ms`. Its thread waited for a processor for `queued_ms` and ran for `ran_ms`.
 fn call(took_ms: f64, queued_ms: f64, ran_ms: f64) -> HaltCall {
     HaltCall {
         decided_s: 100.0,
@@ -55,7 +55,7 @@ fn a_halt_in_time_has_no_cause_and_a_late_one_that_of_its_longest_part() {
     assert_eq!(late(call(3.0, 0.0, 0.0), 0.07), Some(Cause::Device));
 }
 
-/// Follows a halt whose tip is at these heights in mm at these times in ms, until its end is known.
+/// Follows a halt until its end is known. Each of `reports` is the height of the tip, in mm, and the time after the halt, in ms.
 fn followed(reports: &[(f64, u32)]) -> Halted {
     let mut follower = HaltFollower::new(0.0);
     let mut call = Some(call(3.0, 0.0, 0.0));

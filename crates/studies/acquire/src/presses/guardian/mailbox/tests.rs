@@ -44,7 +44,7 @@ impl Halt for Halts {
     }
 }
 
-/// Result of `act` with a transducer that follows `script`, and the number of halts.
+/// Calls `act` with a transducer that follows `script`. Returns the result of `act` and the number of halts.
 fn reading<T>(
     script: Vec<Result<f64, ErrorKind>>,
     act: impl FnOnce(&mut Mailbox, &SharedSupervisor) -> T,
