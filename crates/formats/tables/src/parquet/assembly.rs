@@ -1,5 +1,4 @@
-//! Assembly of the rows of a Parquet column from its leaf columns. The levels of an entry mark the beginning, continuation, emptiness or absence of a
-//! list.
+//! Assembly of the rows of a Parquet column from its leaf columns. The levels of an entry mark the beginning, continuation or absence of a list.
 
 use parquet::file::metadata::RowGroupMetaData;
 
