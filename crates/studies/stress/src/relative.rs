@@ -68,7 +68,7 @@ pub fn add_reference(
     Ok(())
 }
 
-/// Reason why a model without skill in `channel` is not compared: faults cannot add to its error. `None` for a model with skill.
+/// Reason why two models are not compared on `channel`: one has no skill, so faults cannot add to its error. `None` if both may have skill.
 fn without_skill(
     channel: &str,
     own: &ByChannel<CleanScore>,

@@ -1,4 +1,4 @@
-//! Decoder of CDR, the encoding of ROS 2. The offset of a number after the first four bytes is a multiple of the size of the number.
+//! Decoder of CDR, the encoding of ROS 2. The offset of a number, counted from the end of the first four bytes, is a multiple of its size.
 //!
 //! ROS 1 messages are packed without alignment from the first byte on.
 

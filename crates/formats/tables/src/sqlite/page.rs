@@ -11,7 +11,7 @@ pub(crate) struct Pages<'a> {
     pub(super) database: &'a Database,
     file: File,
     kept: Option<(u32, Arc<Vec<u8>>)>,
-    /// Location of the row that [`count`](Self::count) counted last.
+    /// Location of the row that was counted last.
     row: Option<RowPlace>,
     /// Total size of all counted rows, bytes.
     row_bytes: u64,
