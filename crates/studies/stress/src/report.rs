@@ -145,7 +145,7 @@ pub struct FaultReport {
     pub recovers: ByChannel<Estimate>,
     /// Least severity at which the interval of the skill is not above 0; 6 if there is none, `None` if an interval is missing.
     pub breaks_at: ByChannel<Option<u8>>,
-    /// Severity at which no channel has skill, if higher severities were left out for that reason. Means over severities are then lower bounds.
+    /// Severity at which no channel has skill, if higher severities were not tested for that reason. Means over severities are then lower bounds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stopped_at: Option<u8>,
     /// Error that the fault adds over all severities, divided by the error that it adds to the reference model; `None` without a reference model.

@@ -72,7 +72,7 @@ impl Unseen {
         self.target.left_out + self.target.rows.len() - self.rows.len()
     }
 
-    /// Origin of scores of these samples of `dataset`, for which `decoded` further pictures were decoded.
+    /// Origin of the scores of these samples of `dataset`. `decoded` is the number of further pictures that were decoded.
     pub(crate) fn provenance(
         &self,
         dataset: &Dataset,

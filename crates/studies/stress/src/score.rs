@@ -233,7 +233,7 @@ impl<'a> Scorer<'a> {
         errors.collect()
     }
 
-    /// Number of predictions of each row: one for each draw.
+    /// Number of predictions of each row: one for each random draw of the fault.
     fn draws(&self, predicted: &[Column]) -> usize {
         let length = predicted.first().map_or(0, Column::len);
         (length / self.rows.len().max(1)).max(1)

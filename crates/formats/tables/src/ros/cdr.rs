@@ -11,7 +11,7 @@ use crate::limits;
 pub(crate) enum Want {
     /// Skips the field.
     Nothing,
-    /// Stores the whole field in the slot with this number.
+    /// Stores the whole field as a cell in the slot with this number.
     Whole(usize),
     /// Stores the bytes of a list of `uint8` in the slot with this number.
     Bytes(usize),
