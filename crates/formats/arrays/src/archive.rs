@@ -181,7 +181,7 @@ fn entry(rest: &[u8], at: u64) -> Result<(Option<Packed>, &[u8]), Problem> {
     Ok((Some(member), behind))
 }
 
-/// Member with the location of its bytes, as the local header states.
+/// Adds the location of its bytes to a member that the directory lists. Its local header states the location.
 fn located(archive: &dyn ByteSource, listed: Packed) -> Result<Packed, Problem> {
     let header = bytes_of(archive, listed.at, 30)?;
     let field = |place: usize, bytes: usize| number(&header, place, bytes).unwrap_or(0);

@@ -160,7 +160,7 @@ impl Problem {
         }
     }
 
-    /// The same problem, with the part of the file to which its offsets refer.
+    /// Adds the part of the file to which the offsets of the problem refer.
     pub(crate) fn within(self, part: &str) -> Problem {
         match self {
             Problem::Damaged {

@@ -1,4 +1,4 @@
-//! Records: elements that consist of several consecutive fields. Each field is read as a separate array.
+//! Records: array elements that consist of several consecutive fields. Each field is read as a separate array.
 
 use crate::element::{ArrayInfo, Element};
 use crate::error::Problem;
@@ -193,7 +193,7 @@ fn elements(shape: &[u64]) -> usize {
         .unwrap_or(usize::MAX)
 }
 
-/// Checks the memory that `read` needs for an array of this shape against the limit.
+/// Checks the memory that `read` needs for an array of this shape, in addition to `held_bytes`, against the limit.
 pub(crate) fn check_read(shape: &[u64], element: Element, held_bytes: u64) -> Result<(), Problem> {
     let least = match element {
         Element::Text | Element::Bytes => size_of::<String>() as u64,

@@ -96,7 +96,7 @@ impl NpyHeader {
 }
 
 impl NpyArray {
-    /// Parses the header. Rejects an array beyond the end of the source.
+    /// Parses the header. Rejects an array that extends beyond the end of the source.
     pub(crate) fn open(name: &str, source: Arc<dyn ByteSource>) -> Result<NpyArray, Problem> {
         let header = NpyHeader::read(&*source)?;
         let name = name.to_owned();

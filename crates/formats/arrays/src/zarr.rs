@@ -231,7 +231,7 @@ fn is_own_file(folder: &Path, name: &str) -> Result<bool, Problem> {
 #[derive(Clone, Copy, Debug, Default)]
 struct Written {
     chunks: u64,
-    /// Total stored size of these chunks, bytes.
+    /// Total stored size of the chunk files, bytes.
     bytes: u64,
 }
 

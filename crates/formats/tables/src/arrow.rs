@@ -213,7 +213,7 @@ impl ArrowTable {
         Ok(())
     }
 
-    /// Column that `name` begins with. Of a structure, only the member that `name` selects is kept.
+    /// Finds the column whose name `name` begins with. Of a structure, keeps only the member that `name` selects.
     fn field(&self, name: &str) -> Result<Field, TableError> {
         field::named(&self.fields, name).ok_or_else(|| self.source.missing(name, self.names()))
     }

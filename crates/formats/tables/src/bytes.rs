@@ -22,7 +22,7 @@ impl<'a> Bytes<'a> {
         self.all.get(self.at..).unwrap_or_default()
     }
 
-    /// Next `count` bytes; [`None`] if fewer are left.
+    /// Takes the next `count` bytes; [`None`] if fewer are left.
     pub(crate) fn take(&mut self, count: usize) -> Option<&'a [u8]> {
         let end = self.at.checked_add(count)?;
         let taken = self.all.get(self.at..end)?;

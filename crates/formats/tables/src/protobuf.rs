@@ -64,7 +64,7 @@ static KNOWN: [ProtobufMessage; 2] = [
     },
 ];
 
-/// Supported message called `name`; `None` if it is not supported.
+/// Supported message with the name `name`; `None` if it is not supported.
 pub(crate) fn known(name: &str) -> Option<&'static ProtobufMessage> {
     KNOWN.iter().find(|message| message.name == name)
 }
@@ -81,7 +81,7 @@ impl ProtobufMessage {
         names.map(|field| field.name.to_owned()).collect()
     }
 
-    /// Columns called `names`. The error is the first unknown name.
+    /// Finds the columns `names`. The error is the first unknown name.
     pub(crate) fn fields<'n>(&self, names: &[&'n str]) -> Result<Vec<Column>, &'n str> {
         let column = |name: &&'n str| {
             let (base, is_in_nanoseconds) = match name.strip_suffix(".ns") {

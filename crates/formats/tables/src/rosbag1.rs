@@ -27,7 +27,7 @@ pub(crate) struct Rosbag1 {
     channels: BTreeMap<u32, Channel>,
     /// For each connection: the offset of each chunk with its messages, and the offset of the message index of that chunk.
     indices: BTreeMap<u32, Vec<(u64, u64)>>,
-    /// Messages of a truncated bag, in place of the indices; `None` for a complete bag.
+    /// Messages of a truncated bag, which replace the indices; `None` for a complete bag.
     before_cut: Option<Walk>,
 }
 

@@ -202,7 +202,7 @@ impl MessageStore for Rosbag2 {
     }
 }
 
-/// Reader of the messages of a database with its own cursor.
+/// Reader of the messages of a rosbag2 database, with its own cursor.
 struct Rows<'a> {
     bag: &'a Rosbag2,
     pages: Pages<'a>,

@@ -147,7 +147,7 @@ impl<R: BufRead> Read for SnappyStream<R> {
     }
 }
 
-/// Appends a copy of `length` bytes that begin `from` bytes back. Fails if `length` exceeds `left`.
+/// Appends a copy of the `length` bytes that begin `from` bytes before the end of `window`. Fails if `length` exceeds `left`.
 fn copy(window: &mut Vec<u8>, from: usize, length: usize, left: usize) -> io::Result<()> {
     let begin = window.len().checked_sub(from).filter(|_| from > 0);
     let Some(begin) = begin.filter(|_| length <= left) else {

@@ -1,5 +1,4 @@
-//! Tests with malicious files, and with files whose extension contradicts their format. Reading such a file gives a typed error and takes little
-//! memory.
+//! Tests with malicious files, and with files whose extension contradicts their format. Reading them gives a typed error and takes little memory.
 
 mod recordings;
 

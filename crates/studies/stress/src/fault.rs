@@ -17,8 +17,7 @@ pub enum Scope {
     Each,
 }
 
-/// Fault of pictures, signals, labels or rows. The changed values depend only on the original values, the parameter, the seed and the name of the
-/// sample.
+/// Fault of pictures, signals, labels or rows. The result depends only on the original values, the parameter, the seed and the sample name.
 #[derive(Debug)]
 pub struct Fault {
     /// Name of the fault, such as `defocus`.

@@ -113,8 +113,7 @@ pub(crate) static LISTS: [KnownList; 4] = [
     },
 ];
 
-/// Faults with the given `names`, in the order of all lists. The name of a list selects all its faults, and `all` those of [`LIST`]. Spaces are
-/// trimmed.
+/// Faults with the given `names`, in the order of all lists. The name of a list selects its faults, and `all` those of [`LIST`]. Spaces are trimmed.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for an unknown name, or without a name.

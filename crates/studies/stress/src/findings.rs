@@ -13,8 +13,7 @@ pub(crate) const CHANGED_REST: &str = "TAC034";
 /// Minimum degradation of a doubled error. Degradation is the error divided by the error without the fault.
 const DOUBLE: f64 = 2.0;
 
-/// Least severity at which the interval of the skill is not above 0; [`NEVER`] if there is none. `None` if an interval is missing, or no severity was
-/// tested.
+/// Least severity whose interval of skill is not above 0; [`NEVER`] if there is none. `None` if an interval is missing, or no severity was tested.
 pub(crate) fn breaks_at(severities: &[SeverityReport], channel: &str) -> Option<u8> {
     for of in severities {
         let skill = of.stale.get(channel)?.skill;

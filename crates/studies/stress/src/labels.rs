@@ -24,7 +24,7 @@ pub(crate) struct Labels<'a> {
     /// Rows of the table with a label in `truth`.
     pub(crate) rows: &'a [usize],
     pub(crate) truth: &'a Column,
-    /// Random numbers of the fault in this channel.
+    /// Random numbers of the fault for this channel.
     pub(crate) draws: Draws,
 }
 

@@ -158,8 +158,8 @@ impl Monitor {
         })
     }
 
-    /// Creates a monitor for a sensor unit from `dataset`, the recording of its calibration, which has the reference picture and the change by
-    /// contact. Reads at most 33 pictures.
+    /// Creates a monitor for a sensor unit from `dataset`, its calibration, with the reference picture and the change by contact. Reads at most 33
+    /// pictures.
     ///
     /// # Errors
     /// [`EvaluateError::Request`] for several recordings, or a recording without a reference, pictures or contact. Errors of reading.

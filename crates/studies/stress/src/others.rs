@@ -1,4 +1,4 @@
-//! Faults in addition to the faults of this crate.
+//! Faults of worn gels and of plugins, in addition to the faults of this crate.
 
 use crate::foreign::PictureFault;
 use crate::worn::WornFault;

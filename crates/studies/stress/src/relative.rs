@@ -68,7 +68,7 @@ pub fn add_reference(
     Ok(())
 }
 
-/// Reason why a model without skill in `channel` is not compared: faults cannot add to its error. `None` for a model with skill.
+/// Reason why two models are not compared on `channel`: one has no skill, so faults cannot add to its error. `None` if both may have skill.
 fn without_skill(
     channel: &str,
     own: &ByChannel<CleanScore>,
@@ -157,8 +157,7 @@ fn ratio(own: &Excess<'_>, reference: &Excess<'_>) -> Estimate {
     Estimate::new(added / by, interval(added / by, &sizes, left_out))
 }
 
-/// Error that a fault adds to the model minus the error that it adds to the reference model. A paired sign-flip test over clusters tests the
-/// difference.
+/// Error that a fault adds to the model minus the error that it adds to the reference model. A paired sign-flip test over clusters tests it.
 fn difference(own: &Excess<'_>, reference: &Excess<'_>, seed: u64) -> Result<Difference, String> {
     if own.cells.is_empty() {
         return Err(Undefined::NoSeverity.to_string());

@@ -25,7 +25,7 @@ pub struct StressReport {
     pub schema: &'static str,
     /// Sensor that was tested.
     pub subject: Subject,
-    /// Warning that some samples are simulated and not measured; `None` if all are measured.
+    /// Warning that samples are, or may be, simulated or synthetic and not measured; `None` without such samples.
     pub not_measured: Option<String>,
     /// Quantity that sets severity.
     pub by: By,
@@ -145,7 +145,7 @@ pub struct FaultReport {
     pub recovers: ByChannel<Estimate>,
     /// Least severity at which the interval of the skill is not above 0; 6 if there is none, `None` if an interval is missing.
     pub breaks_at: ByChannel<Option<u8>>,
-    /// Severity at which no channel has skill, if higher severities were left out for that reason. Means over severities are then lower bounds.
+    /// Severity at which no channel has skill, if higher severities were not tested for that reason. Means over severities are then lower bounds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stopped_at: Option<u8>,
     /// Error that the fault adds over all severities, divided by the error that it adds to the reference model; `None` without a reference model.
@@ -193,16 +193,16 @@ pub struct SeverityReport {
     pub low_stimulus: bool,
     /// Codes of the checks of pictures or taxels that find the fault in every random draw, and find nothing without the fault.
     pub check: Vec<&'static str>,
-    /// Scores with an untouched picture from before the fault.
+    /// Scores of predictions with the untouched picture from before the fault.
     pub stale: ByChannel<CellScore>,
-    /// Scores with an untouched picture from after the fault; `None` without such a picture.
+    /// Scores of predictions with a new untouched picture, which has the fault; `None` without such a picture.
     pub fresh: Option<ByChannel<CellScore>>,
-    /// Metrics of time with the fault; empty for a fault that leaves no rows out.
+    /// Metrics of the times of rows with the fault, such as the frame rate; empty for a fault that removes no rows.
     #[serde(skip_serializing_if = "ByChannel::is_empty")]
     pub times: ByChannel<TimeScore>,
 }
 
-/// Error that a fault at least doubles without a finding in the checks of pictures or taxels.
+/// Error that a fault at least doubles, although no check of pictures or taxels finds the fault.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Unnoticed {
     /// Name of the fault.
@@ -213,7 +213,7 @@ pub struct Unnoticed {
     pub channel: String,
 }
 
-/// A skipped fault.
+/// Fault that the stress test skipped.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct SkippedFault {
     /// Name of the fault.

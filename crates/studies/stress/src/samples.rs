@@ -11,12 +11,12 @@ use taceva_results::Provenance;
 /// Samples of a recording that a model has not seen.
 pub(crate) struct Unseen {
     pub(crate) target: Target,
-    /// Samples with a picture, or with signals if the model reads signals, ascending.
+    /// Row numbers of the samples with a picture, or with signals if the model reads signals, ascending.
     pub(crate) rows: Vec<usize>,
 }
 
 impl Unseen {
-    /// Samples of `part`, or of the part that the model has not seen. Reads no picture and no signal.
+    /// Selects the samples of `part`, or of the part that the model has not seen. Reads no picture and no signal.
     pub(crate) fn of(
         dataset: &Dataset,
         model: &Model,
@@ -38,7 +38,7 @@ impl Unseen {
         Unseen::with_input(dataset, model, target)
     }
 
-    /// Samples of `target`, which the caller knows to be unseen.
+    /// Selects the samples of `target`. The caller knows that the model has not seen them.
     pub(crate) fn of_target(
         dataset: &Dataset,
         model: &Model,
@@ -67,12 +67,12 @@ impl Unseen {
         Ok(Unseen { target, rows })
     }
 
-    /// Number of samples of the part without a picture.
+    /// Number of samples of the part that have no picture, or no signals if the model reads signals.
     pub(crate) fn left_out(&self) -> usize {
         self.target.left_out + self.target.rows.len() - self.rows.len()
     }
 
-    /// Origin of scores of these samples of `dataset`, for which `decoded` further pictures were decoded.
+    /// Origin of the scores of these samples of `dataset`. `decoded` is the number of further pictures that were decoded.
     pub(crate) fn provenance(
         &self,
         dataset: &Dataset,
@@ -96,7 +96,7 @@ impl Unseen {
     }
 }
 
-/// Time of each row of `dataset`, a share of the time from its first row to its last. `None` if one of `rows` has no time, or all times are equal.
+/// Time of each row of `dataset`, from 0 at its first row to 1 at its last. `None` if one of `rows` has no time, or all times are equal.
 pub(crate) fn shares(dataset: &Dataset, rows: &[usize]) -> Option<Vec<f64>> {
     let elapsed = elapsed_s(dataset, rows)?;
     let whole = elapsed.iter().copied().fold(0.0, f64::max);
@@ -114,7 +114,7 @@ pub(crate) fn elapsed_s(dataset: &Dataset, rows: &[usize]) -> Option<Vec<f64>> {
     (is_timed && last > first).then(|| times.iter().map(elapsed).collect())
 }
 
-/// True for a model of the signals of taxels.
+/// True if the model reads signals of taxels and not pictures.
 pub(crate) fn reads_signals(model: &Model) -> bool {
     matches!(model.card().input, InputInfo::Signals(_))
 }

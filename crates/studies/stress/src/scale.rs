@@ -1,4 +1,4 @@
-//! Change of pictures by contact: the unit of the strength of faults.
+//! Change of pictures by contact, which is the unit of the strength of faults.
 
 use taceva_core::{Frame, Unit};
 use taceva_dataset::Dataset;
@@ -6,31 +6,31 @@ use taceva_evaluate::EvaluateError;
 
 /// Maximum number of pictures of contact that are compared with the untouched picture.
 pub(crate) const PICTURES: usize = 32;
-/// Share of the greatest load above which a picture shows contact to `check`.
+/// Load, as a fraction of the greatest load, above which the checks of `taceva check` take a picture as a picture of contact.
 const PRESSED: f64 = 0.5;
 
 /// Untouched picture, and the change of pictures by contact.
 ///
 /// # Units
-/// A change is a mean over all pixel values of a picture, as a share of full scale.
+/// A change is a mean over all pixel values of a picture, as a fraction of full scale.
 #[derive(Default)]
 pub(crate) struct Scale {
-    /// The untouched picture; without a reference, the picture with the least load.
+    /// Picture without contact: the reference of the recording, or else the picture with the least load.
     pub(crate) untouched: Option<Frame>,
     /// True if the untouched picture is the reference of the recording.
     pub(crate) is_reference: bool,
     /// Mean change by contact; `None` if it is unknown or zero.
     pub(crate) contact: Option<f64>,
-    /// Mean change from one picture to the next among the compared pictures.
+    /// Mean change between successive pictures among the compared pictures.
     pub(crate) successive: f64,
-    /// Pictures with a great load.
+    /// Pictures whose load is at least half of the greatest load.
     pub(crate) pressed: Vec<Frame>,
     /// Number of decoded pictures.
     pub(crate) decoded: u64,
 }
 
 impl Scale {
-    /// Scale of `rows`, which must have pictures. Decodes at most [`PICTURES`] of them, and the untouched picture.
+    /// Measures the change by contact in the pictures of `rows`. Decodes at most [`PICTURES`] of them, and the untouched picture.
     pub(crate) fn of(dataset: &Dataset, rows: &[usize]) -> Result<Scale, EvaluateError> {
         let loads = Loads::of(dataset, rows);
         let picked = loads.picked();
@@ -63,7 +63,7 @@ impl Scale {
         })
     }
 
-    /// Reads the untouched picture and leaves the change by contact unknown. Without a reference, decodes the picture with the least load.
+    /// Reads only the untouched picture. Without a reference, this is the picture with the least load among `rows`.
     pub(crate) fn untouched(dataset: &Dataset, rows: &[usize]) -> Result<Scale, EvaluateError> {
         let reference = dataset.reference()?;
         let is_reference = reference.is_some();
@@ -87,7 +87,7 @@ impl Scale {
         self.untouched.as_ref().filter(|_| self.is_reference)
     }
 
-    /// Origin of the untouched picture.
+    /// Origin of the untouched picture: `reference`, `least load` or `none`.
     pub(crate) fn source(&self) -> &'static str {
         match (&self.untouched, self.is_reference) {
             (Some(_), true) => "reference",
@@ -97,7 +97,7 @@ impl Scale {
     }
 }
 
-/// Mean absolute difference of two pictures, a share of full scale; 0 for pictures of different size or format.
+/// Mean absolute difference over all pixel values of two pictures, a fraction of full scale; 0 if size or format differs.
 pub(crate) fn difference(one: &Frame, other: &Frame) -> f64 {
     if one.info() != other.info() || one.bytes().is_empty() {
         return 0.0;
@@ -119,13 +119,13 @@ pub(crate) fn mean(numbers: impl Iterator<Item = f64>) -> Option<f64> {
     (count > 0.0).then_some(sum / count)
 }
 
-/// A row, with the flag that the gel is in contact.
+/// Row of a recording. `is_contact` is true if the gel is in contact.
 pub(crate) struct Touch {
     pub(crate) row: usize,
     pub(crate) is_contact: bool,
 }
 
-/// Rows among `rows` with a known load, in order; `None` for a recording without a channel of loads.
+/// Contact state of each of `rows` with a known load, in order; `None` for a recording without the channel `Fz` or `Pz`.
 pub(crate) fn touches(dataset: &Dataset, rows: &[usize]) -> Option<Vec<Touch>> {
     Loads::of(dataset, rows).touches()
 }
@@ -137,7 +137,7 @@ pub(crate) fn most_loaded(dataset: &Dataset, rows: &[usize]) -> Option<usize> {
     most.map(|load| load.row)
 }
 
-/// At most [`PICTURES`] rows of contact among `rows`, at evenly spaced positions.
+/// Rows of contact among `rows`, at most [`PICTURES`], evenly spaced in the order of the rows.
 pub(crate) fn contact_rows(dataset: &Dataset, rows: &[usize]) -> Vec<usize> {
     let loads = Loads::of(dataset, rows);
     loads.picked().iter().map(|load| load.row).collect()
@@ -148,17 +148,17 @@ pub(crate) fn least_loaded(dataset: &Dataset, rows: &[usize]) -> Option<usize> {
     Loads::of(dataset, rows).least()
 }
 
-/// A row with its load.
+/// Row of a recording with its load.
 struct Load {
     row: usize,
     load: f64,
 }
 
-/// Loads of rows: the absolute force, otherwise the depth.
+/// Loads of rows: the absolute force `Fz`, or the depth `Pz` without a channel `Fz`.
 struct Loads {
-    /// Rows with a load, in order; every row with a load of 0 if there is no channel of loads.
+    /// Rows with a load, in order. Without a channel of loads, all rows with a load of 0.
     rows: Vec<Load>,
-    /// Load up to which a picture shows no contact; `None` without a channel of loads.
+    /// Greatest load of a picture without contact; `None` without a channel of loads.
     untouched_to: Option<f64>,
 }
 
@@ -190,7 +190,7 @@ impl Loads {
         }
     }
 
-    /// At most [`PICTURES`] rows in contact, at evenly spaced positions.
+    /// Rows in contact, at most [`PICTURES`], evenly spaced in the order of the rows.
     fn picked(&self) -> Vec<&Load> {
         let least = self.untouched_to.unwrap_or(-1.0);
         let contact: Vec<&Load> = self.rows.iter().filter(|load| load.load > least).collect();
@@ -198,7 +198,7 @@ impl Loads {
         contact.into_iter().step_by(every).collect()
     }
 
-    /// Rows of known load with their contact; `None` without a channel of loads.
+    /// Contact state of each row with a known load; `None` without a channel of loads.
     fn touches(&self) -> Option<Vec<Touch>> {
         let untouched_to = self.untouched_to?;
         let rows = self.rows.iter().map(|load| Touch {

@@ -16,12 +16,12 @@ use crate::report::{ByChannel, CellScore, CleanScore};
 pub(crate) const MAE: &str = "mae";
 pub(crate) const SKILL: &str = "skill";
 
-/// Scorer of predictions of the same rows.
+/// Scorer that compares predictions of the same rows with their labels.
 pub(crate) struct Scorer<'a> {
     dataset: &'a Dataset,
     rows: &'a [usize],
     plan: MetricPlan,
-    /// Positions of the scored channels in a row of predictions, and the length of that row.
+    /// Indices of the scored channels among the predictions of a sample. `width` is the number of these predictions.
     positions: Vec<usize>,
     width: usize,
     truth: Vec<Column>,
@@ -31,22 +31,21 @@ pub(crate) struct Scorer<'a> {
     jobs: NonZeroUsize,
 }
 
-/// Scores of some predictions.
+/// Scores of one set of predictions.
 pub(crate) struct Scored {
-    /// Mean absolute errors, in the form that comparisons read.
+    /// Mean absolute error of each channel, in the type from which differences are computed.
     pub(crate) scores: ByChannel<Score>,
     pub(crate) mae: ByChannel<Estimate>,
     skill: ByChannel<Estimate>,
-    /// Metrics on request.
+    /// Further metrics that the request names, by metric and channel.
     pub(crate) others: BTreeMap<&'static str, ByChannel<Estimate>>,
     pub(crate) errors: ByChannel<Errors>,
-    /// Least and greatest mean error of a single draw; empty for one draw.
+    /// Least and greatest mean absolute error among the random draws of the fault; empty for one draw.
     spread: ByChannel<[f64; 2]>,
 }
 
 impl<'a> Scorer<'a> {
-    /// Scorer of `rows` by the channels of `model` except angles, whose errors are not plain differences. Other `metrics` are computed beside
-    /// error and skill.
+    /// Creates a scorer of `rows` for the channels of `model`, except angles. `metrics` names metrics in addition to error and skill.
     pub(crate) fn new(
         dataset: &'a Dataset,
         model: &Model,
@@ -108,7 +107,7 @@ impl<'a> Scorer<'a> {
         })
     }
 
-    /// Scorer of the same samples on a worn gel, at `rows` of `worn`.
+    /// Creates a scorer of the same presses on a worn gel. `rows` are their rows in the recording `worn`.
     pub(crate) fn of_worn<'w>(
         &'w self,
         worn: &'w Dataset,
@@ -135,7 +134,7 @@ impl<'a> Scorer<'a> {
         })
     }
 
-    /// Scorer of the same samples with the labels `truth`, one column for each of [`labels`](Scorer::labels).
+    /// Creates a scorer of the same samples with other labels: `truth` has one column for each of [`labels`](Scorer::labels).
     pub(crate) fn with_labels(&self, truth: Vec<Column>) -> Scorer<'a> {
         Scorer {
             plan: self.plan.clone(),
@@ -151,7 +150,7 @@ impl<'a> Scorer<'a> {
         self.plan.channels().iter().zip(&self.truth)
     }
 
-    /// Scores of `predictions`.
+    /// Compares `predictions` with the labels.
     ///
     /// # Shapes
     /// `[rows, draws, channels of the model]`.
@@ -216,7 +215,7 @@ impl<'a> Scorer<'a> {
         of.mae.keys().map(unit).collect()
     }
 
-    /// Mean absolute errors of the constant prediction: the mean of the training labels, or of the truth.
+    /// Mean absolute error, by channel, of a constant prediction: the mean of the training labels, or of the scored labels if unknown.
     fn constants(&self) -> ByChannel<f64> {
         let channels = self.plan.channels().iter().zip(&self.truth);
         let columns = channels.map(|(channel, truth)| {
@@ -234,13 +233,13 @@ impl<'a> Scorer<'a> {
         errors.collect()
     }
 
-    /// Number of predictions of each row: one for each draw.
+    /// Number of predictions of each row: one for each random draw of the fault.
     fn draws(&self, predicted: &[Column]) -> usize {
         let length = predicted.first().map_or(0, Column::len);
         (length / self.rows.len().max(1)).max(1)
     }
 
-    /// Absolute errors of a channel, means over all draws of a row.
+    /// Absolute errors of the channel `name`. The error of a row is a mean over all random draws.
     fn errors(&self, name: &str, predicted: &[Column]) -> Errors {
         let draws = self.draws(predicted);
         let all = self.absolute(name, predicted);
@@ -252,7 +251,7 @@ impl<'a> Scorer<'a> {
         Errors::of(&means, self.clusters.as_deref())
     }
 
-    /// Least and greatest mean of the absolute errors of a single draw.
+    /// Least and greatest mean absolute error among the random draws, each a mean over all rows.
     fn spread(&self, name: &str, predicted: &[Column]) -> [f64; 2] {
         let draws = self.draws(predicted);
         let all = self.absolute(name, predicted);
@@ -265,7 +264,7 @@ impl<'a> Scorer<'a> {
         })
     }
 
-    /// Absolute errors of a channel, or means over both axes of a plane.
+    /// Absolute errors of the channel `name`. For a plane, means of the absolute errors of both axes.
     ///
     /// # Shapes
     /// `[rows, draws]`.
@@ -288,7 +287,7 @@ impl<'a> Scorer<'a> {
         (0..draws * self.rows.len()).map(error).collect()
     }
 
-    /// Scores without a fault, for readers.
+    /// Scores without a fault, in the form of the report.
     pub(crate) fn clean(&self, of: &Scored) -> ByChannel<CleanScore> {
         let constants = self.constants();
         let scores = of.mae.iter().map(|(name, mae)| {
@@ -305,7 +304,7 @@ impl<'a> Scorer<'a> {
 }
 
 impl Scored {
-    /// Scores with a fault, compared with the scores `clean`.
+    /// Scores with a fault, in the form of the report, relative to the scores without the fault.
     pub(crate) fn beside(
         &self,
         baseline: &Scored,
@@ -332,24 +331,24 @@ impl Scored {
         self.mae.keys()
     }
 
-    /// Greatest number of clusters of a channel; `None` if a row has no cluster.
+    /// Greatest number of clusters (by default contact points) among the channels; `None` if a row has no cluster.
     pub(crate) fn clusters(&self) -> Option<usize> {
         self.errors.values().filter_map(Errors::clusters).max()
     }
 
-    /// Number of samples with an error of this channel or plane.
+    /// Number of samples with an error of the channel or plane `name`.
     pub(crate) fn count(&self, name: &str) -> u64 {
         self.errors.get(name).map_or(0, Errors::count)
     }
 
-    /// Least and greatest degradation of a single draw.
+    /// Least and greatest degradation among the random draws of a fault.
     fn spread_beside(&self, name: &str, baseline: &Scored) -> Option<[f64; 2]> {
         let clean = baseline.errors.get(name)?.mean().filter(|of| *of > 0.0)?;
         let ends = self.spread.get(name)?.map(|error| error / clean);
         ends[0].is_finite().then_some(ends)
     }
 
-    /// True if the skill of a channel is shown to be above 0, or has no interval. Also true if no channel has a skill.
+    /// True unless the skill of every channel is known not to be above 0. True if no channel has a skill.
     pub(crate) fn has_skill(&self) -> bool {
         let known = || self.skill.values().filter(|skill| skill.value.is_some());
         known().next().is_none() || known().any(|skill| skill.is_above_zero() != Some(false))
@@ -360,7 +359,7 @@ impl Scored {
         known.unwrap_or(Estimate::undefined(Undefined::Empty))
     }
 
-    /// Metrics on request of a channel, by their names.
+    /// Further metrics of the channel `name`, by the name of the metric.
     fn metrics_of(&self, name: &str) -> ByChannel<Estimate> {
         let all = self.others.iter();
         let known = all.filter_map(|(id, of)| Some(((*id).to_owned(), *of.get(name)?)));
@@ -368,7 +367,7 @@ impl Scored {
     }
 }
 
-/// Mean degradation of a channel over some cells.
+/// Degradation of a channel as a mean over `cells`, relative to the scores `baseline` without a fault.
 pub(crate) fn degradation<'s>(
     name: &str,
     cells: impl IntoIterator<Item = &'s Scored>,
@@ -377,7 +376,7 @@ pub(crate) fn degradation<'s>(
     mean_degradation(name, [cells.into_iter().collect()], baseline)
 }
 
-/// Mean over faults of the mean degradation over the cells of each fault. Faults without a cell do not count.
+/// Degradation of the channel `name`: a mean over the cells of each fault, then over the faults. Faults without a cell do not count.
 pub(crate) fn mean_degradation<'s>(
     name: &str,
     faults: impl IntoIterator<Item = Vec<&'s Scored>>,

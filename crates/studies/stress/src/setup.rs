@@ -20,13 +20,13 @@ use crate::times::is_stream;
 
 /// Reason to skip a fault of pictures for a model of signals.
 const OF_PICTURES: &str = "the model reads signals, and the fault changes pictures";
-/// Reason to skip a fault that is a share of the change of signals by contact.
+/// Reason to skip a fault whose strength is relative to the change of signals by contact.
 const NO_CONTACT: &str = "the change by contact is unknown: expected rows without contact or labels of Fz or Pz, and samples of contact whose signals differ";
-/// Minimum number of markers for a fault of markers. Fewer spots would fit into any grid.
+/// Minimum number of markers for a fault of markers. Fewer bright spots could lie on a grid by chance.
 const LEAST_MARKERS: usize = 9;
 
-/// Metrics of a cell, which is one fault at one severity. Every cell has the first two. All are sums over samples, so a sample may have several
-/// draws.
+/// Metrics of a cell, which is one fault at one severity. Every cell has the first two, `mae` and `skill`. All are computed from sums over samples,
+/// so a sample may have several draws.
 const METRICS: [&str; 8] = [
     "mae",
     "skill",
@@ -41,22 +41,22 @@ const METRICS: [&str; 8] = [
 /// Choice of faults and samples.
 #[derive(Clone, Debug)]
 pub struct StressRequest {
-    /// Names of faults, or of their list.
+    /// Names of faults or of lists of faults.
     pub faults: Vec<String>,
     /// Severities from 1 to 5, ascending.
     pub severities: Vec<u8>,
-    /// Quantity that sets the severity of faults of pictures.
+    /// Quantity that sets the severity of faults of pictures: the stimulus or the parameter.
     pub by: By,
     /// Seed of all faults.
     pub seed: u64,
-    /// Draws of the places of dead pixels, scratches, tears, dust and taxels, at least 1.
+    /// Number of random draws of the positions of dead pixels, scratches, tears, dust and taxels, at least 1.
     pub draws: u32,
     /// Part to score; `None` for the samples that the model has not seen.
     pub part: Option<DataPart>,
-    /// True to leave out the severities of a fault of pictures or signals above the first at which no channel has skill. Each severity then decodes the scored
-    /// pictures.
+    /// True to stop a fault of pictures or signals after the first severity at which no channel has skill. The pictures are then decoded once for
+    /// each severity.
     pub stops_at_no_skill: bool,
-    /// Metrics of each cell beside mean absolute error and skill.
+    /// Names of metrics in addition to the mean absolute error and the skill.
     pub metrics: Vec<String>,
 }
 
@@ -84,7 +84,7 @@ pub fn usual_list(model: &Model) -> &'static str {
 }
 
 impl StressRequest {
-    /// The requested faults. Rejects invalid severities, draws and metrics, and an empty list of faults unless `has_others`.
+    /// Returns the requested faults. Rejects invalid severities, draws and metrics. Without `has_others`, also rejects an empty list of faults.
     fn checked(&self, has_others: bool) -> Result<Vec<&'static Fault>, EvaluateError> {
         let refused = |words: &str| Err(EvaluateError::Request(words.to_owned()));
         let chosen = match self.faults.is_empty() && has_others {
@@ -113,7 +113,7 @@ impl StressRequest {
     }
 }
 
-/// Samples and faults of a test, checked before any picture is read.
+/// Samples and faults of a stress test, checked before any picture is read.
 pub(crate) struct Setup {
     pub(crate) samples: Unseen,
     /// Faults of pictures.
@@ -122,7 +122,7 @@ pub(crate) struct Setup {
     pub(crate) of_labels: Vec<&'static Fault>,
     /// Faults of taxels.
     pub(crate) of_taxels: Vec<&'static Fault>,
-    /// Faults that leave rows out.
+    /// Faults that remove rows (samples).
     pub(crate) of_rows: Vec<&'static Fault>,
     pub(crate) skipped: Vec<SkippedFault>,
     /// Sides of the LEDs of the sensor.
@@ -142,7 +142,7 @@ impl Setup {
         Setup::with(dataset, model, samples, chosen)
     }
 
-    /// Setup for the samples of `target`, which the caller knows to be unseen.
+    /// Creates the setup for the samples of `target`. The caller knows that the model has not seen them.
     pub(crate) fn of_target(
         dataset: &Dataset,
         model: &Model,
@@ -228,7 +228,7 @@ impl Setup {
         kinds.into_iter().flatten().copied().collect()
     }
 
-    /// Change of signals by contact; `None` for a model of pictures. If the change is unknown, faults that grow with time are skipped.
+    /// Measures the change of signals by contact; `None` for a model of pictures. If it is unknown, the faults that need it are skipped.
     pub(crate) fn taxels(
         &mut self,
         dataset: &Dataset,
@@ -250,7 +250,7 @@ impl Setup {
         Ok(scale)
     }
 
-    /// Markers of the untouched picture, if a fault needs them. Without markers, that fault is skipped.
+    /// Finds the markers of the untouched picture, if a fault of markers is tested. Without markers, the fault is skipped.
     pub(crate) fn markers(&mut self, untouched: Option<&Frame>) -> Option<MarkerTracker> {
         let position = self.faults.iter().position(|fault| fault.is_of_markers())?;
         let reason = match untouched.map(MarkerTracker::new) {
@@ -272,7 +272,7 @@ impl SkippedFault {
         }
     }
 
-    /// Skip of a plugin's fault, because a model of signals reads no pictures.
+    /// Entry of the report for a plugin fault that is skipped, because a model of signals reads no pictures.
     pub(crate) fn unseen(fault: &dyn PictureFault) -> SkippedFault {
         SkippedFault {
             fault: fault.name().to_owned(),
@@ -302,7 +302,7 @@ fn require_testable(dataset: &Dataset, model: &Model) -> Result<(), EvaluateErro
     }
 }
 
-/// Steps of [`stress_beside`](crate::stress_beside) with the faults of plugins `foreign`. Reads no picture.
+/// Plans the steps of [`stress_beside`](crate::stress_beside), including the plugin faults `foreign`. Reads no picture.
 ///
 /// # Errors
 /// [`EvaluateError`] if the request is not valid, or the model does not suit the recording.

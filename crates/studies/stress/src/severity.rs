@@ -1,4 +1,4 @@
-//! Severities of a fault: the parameter of each, solved on the untouched picture or taken from the table.
+//! Severities of a fault, each with its parameter. The parameter is found from the change of the untouched picture, or taken from a table.
 
 use serde::Serialize;
 
@@ -11,63 +11,63 @@ use crate::fault::{Fault, Scope};
 use crate::scale::{Scale, difference};
 use crate::stress::{Stress, draw_seeds};
 
-/// Change of the untouched picture at severities 1 to 5, as a share of the change by contact.
+/// Change of the untouched picture at severities 1 to 5, as a ratio to the change by contact (the stimulus).
 pub const TARGETS: [f64; 5] = [0.03, 0.1, 0.3, 1.0, 3.0];
-/// Placeholder above all severities, for a fault that ends the skill at no severity.
+/// Value above all severities that stands for "the skill ends at no severity".
 pub const NEVER: u8 = 6;
 
-/// Least parameter of a search, as a share of the greatest.
+/// Least parameter that the search for a severity tries, as a fraction of the greatest parameter.
 const LEAST: f64 = 1e-7;
-/// Accepted excess of a solved stimulus, as a ratio.
+/// Ratio of the found stimulus to the target stimulus at which a search ends.
 const ACCURACY: f64 = 1.02;
-/// Number of bisections of a search.
+/// Maximum number of bisections in the search for a parameter.
 const STEPS: usize = 28;
-/// Share of the recording at which the stimulus of a fault that grows with time is solved.
+/// Time, as a fraction of the recording, at which the stimulus of a fault that grows with time must reach its target.
 const MIDDLE: f64 = 0.5;
-/// Number of lines over which the stimulus is averaged, for a fault that is drawn for each picture.
+/// Number of picture lines over which the stimulus is averaged, for a fault with random numbers for each picture.
 const LINES: u32 = 512;
-/// Maximum number of pictures over which the stimulus is averaged, for a fault that is drawn for each picture.
+/// Maximum number of pictures over which the stimulus is averaged, for a fault with random numbers for each picture.
 const DRAWN: u32 = 32;
 
-/// Quantity that sets severity.
+/// Quantity that sets the severity of a fault.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum By {
-    /// The change of the untouched picture relative to the change by contact; the same ratio for all faults and sensors.
+    /// Change of the untouched picture by the fault, divided by the change by contact. A severity has the same ratio for all faults and sensors.
     #[default]
     Stimulus,
-    /// The parameter of the fault, from a table.
+    /// Parameter of the fault, from a table of the fault.
     Parameter,
 }
 
-/// A severity with its parameter.
+/// Severity of a fault, with its parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Level {
     pub(crate) severity: u8,
     pub(crate) parameter: f64,
 }
 
-/// A severity that the fault cannot have on this sensor.
+/// Severity that the fault cannot reach on this sensor.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Unreached {
     /// The severity.
     pub severity: u8,
-    /// Wanted stimulus.
+    /// Target stimulus: change of the untouched picture, divided by the change by contact.
     pub target: f64,
-    /// Greatest stimulus of the fault, or the stimulus of the next possible parameter.
+    /// Greatest stimulus of the fault, if it is below the target. Otherwise the least possible stimulus above the target.
     pub most: f64,
     /// Parameter that gives the stimulus `most`.
     pub parameter: f64,
 }
 
-/// Severities of a fault.
+/// Severities of a fault that can and that cannot be reached.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Levels {
     pub(crate) reached: Vec<Level>,
     pub(crate) unreached: Vec<Unreached>,
 }
 
-/// Severities that `text` names, such as `1-5`, `3` or `1,3,5`.
+/// Parses severities, such as `1-5`, `3` or `1,3,5`.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for other text.
@@ -94,7 +94,7 @@ pub fn severities(text: &str) -> Result<Vec<u8>, EvaluateError> {
 }
 
 impl Levels {
-    /// Parameters of `severities` from the table of `fault`.
+    /// Takes the parameters of `severities` from the table of `fault`.
     pub(crate) fn by_parameter(fault: &Fault, severities: &[u8]) -> Levels {
         let level = |severity: &u8| Level {
             severity: *severity,
@@ -106,7 +106,7 @@ impl Levels {
         }
     }
 
-    /// Parameters of `severities` at which the untouched picture changes by the targets.
+    /// Finds the parameters at which the untouched picture changes by the [`TARGETS`] of `severities`.
     pub(crate) fn by_stimulus(
         fault: &'static Fault,
         severities: &[u8],
@@ -144,7 +144,7 @@ impl Levels {
     }
 }
 
-/// Least known parameter with a stimulus of at least `target`, by bisection of its logarithm. Other targets have no influence.
+/// Finds the least parameter with a stimulus of at least `target`, by bisection of its logarithm. The result does not depend on other targets.
 fn solve(target: f64, most: f64, stimulus: impl Fn(f64) -> f64) -> f64 {
     let mut low = LEAST * most;
     let mut high = most;
@@ -166,7 +166,7 @@ fn solve(target: f64, most: f64, stimulus: impl Fn(f64) -> f64) -> f64 {
     high
 }
 
-/// Untouched picture on which severities are solved.
+/// Untouched picture from whose change the parameters of severities are found.
 pub(crate) struct Reference<'a> {
     pub(crate) scale: &'a Scale,
     pub(crate) untouched: &'a Frame,
@@ -174,12 +174,12 @@ pub(crate) struct Reference<'a> {
     pub(crate) markers: Option<&'a MarkerTracker>,
     pub(crate) leds: Leds,
     pub(crate) seed: u64,
-    /// Draws of the places of a fault.
+    /// Number of random draws of the positions of a fault.
     pub(crate) draws: u32,
 }
 
 impl Reference<'_> {
-    /// Change of the untouched picture by the fault, as a share of the change by contact.
+    /// Change of the untouched picture by `fault` at `parameter`, as a ratio to the change by contact.
     fn stimulus(&self, fault: &'static Fault, parameter: f64) -> f64 {
         if Stress::new(fault, parameter, self.seed).repeats() {
             return parameter * self.scale.successive / self.contact;

@@ -1,4 +1,4 @@
-//! Passes over the scored pictures: one for all cells, or one for each severity.
+//! Passes over the scored pictures: one pass for all faults and severities, or one for each severity.
 
 use std::collections::BTreeSet;
 
@@ -12,12 +12,12 @@ use crate::pass::{Cell, CellPredictions, predictions};
 use crate::score::{Scored, Scorer};
 use crate::severity::NEVER;
 
-/// Scored pictures, and their readers.
+/// Scored pictures, with the model and the scorer.
 pub(crate) struct Pictures<'a> {
     pub(crate) dataset: &'a Dataset,
     pub(crate) model: &'a Model,
     pub(crate) rows: &'a [usize],
-    /// Time of each row of the table, a share of the duration.
+    /// Time of each row of the table, from 0 to 1 over the duration of the recording.
     pub(crate) shares: &'a [f64],
     /// Untouched picture of the recording; `None` if unknown.
     pub(crate) reference: Option<&'a Frame>,
@@ -38,7 +38,7 @@ pub(crate) struct Tested<'m> {
     pub(crate) passes: u64,
 }
 
-/// Scores of one cell.
+/// Scores of one cell: a fault at one severity.
 pub(crate) struct ScoredCell {
     pub(crate) stale: Scored,
     pub(crate) fresh: Option<Scored>,
@@ -55,7 +55,7 @@ impl ScoredCell {
 }
 
 impl Pictures<'_> {
-    /// Scores of `cells` from one pass.
+    /// Scores `cells` in one pass over the pictures.
     pub(crate) fn at_once<'m>(&self, cells: Vec<Cell<'m>>) -> Result<Tested<'m>, EvaluateError> {
         let found = predictions(
             self.dataset,
@@ -78,7 +78,7 @@ impl Pictures<'_> {
         })
     }
 
-    /// Scores of `cells` from one pass for each severity. A fault has no further severity after the first at which no channel has skill.
+    /// Scores `cells` in one pass over the pictures for each severity. A fault is not tested after the first severity at which no channel has skill.
     pub(crate) fn until_no_skill<'m>(
         &self,
         cells: Vec<Cell<'m>>,

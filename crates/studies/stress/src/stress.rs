@@ -1,4 +1,4 @@
-//! A fault of one strength, applied to pictures.
+//! Fault with a fixed parameter, applied to pictures or signals.
 
 use taceva_core::random::{Draws, fnv_1a, mix};
 use taceva_core::{Frame, Signals, single};
@@ -9,7 +9,7 @@ use crate::canvas::{Canvas, Realisation};
 use crate::fault::{Effect, Fault, Markers, Scope};
 use crate::taxels::TaxelDraw;
 
-/// Seeds of the draws of `fault`: `count` seeds for a fault with drawn places, otherwise one seed. The first is `seed`.
+/// Seeds of the random draws of `fault`: `count` seeds for a fault with random positions, otherwise one seed. The first is `seed`.
 pub(crate) fn draw_seeds(fault: &Fault, seed: u64, count: u32) -> Vec<u64> {
     let others = match fault.scope {
         Scope::Drawn => 1..count,
@@ -19,7 +19,7 @@ pub(crate) fn draw_seeds(fault: &Fault, seed: u64, count: u32) -> Vec<u64> {
     [seed].into_iter().chain(others).collect()
 }
 
-/// A fault of one strength, with its random numbers.
+/// Fault with a fixed parameter and its random numbers.
 ///
 /// A picture with the fault depends only on the picture, the fault, its parameter, the seed and the name of the sample. The order of the pictures
 /// and the number of threads change no bit.
@@ -45,7 +45,7 @@ pub struct Stress<'m> {
 }
 
 impl<'m> Stress<'m> {
-    /// The fault with this parameter. Without a positive parameter there is no fault.
+    /// Creates `fault` with this parameter. If `parameter` is not above 0, the fault changes nothing.
     pub fn new(fault: &'static Fault, parameter: f64, seed: u64) -> Stress<'m> {
         Stress {
             fault,
@@ -56,19 +56,19 @@ impl<'m> Stress<'m> {
         }
     }
 
-    /// The same fault with the markers of the untouched picture. Without markers, a fault of markers changes no picture.
+    /// Sets the markers of the untouched picture. Without markers, a fault of markers changes no picture.
     #[must_use]
     pub fn with_markers(self, markers: Option<&'m MarkerTracker>) -> Stress<'m> {
         Stress { markers, ..self }
     }
 
-    /// The same fault of a sensor with these LEDs. A loss of LEDs then dims only the colours of one side, unless the picture is gray.
+    /// Sets the LEDs of the sensor. A loss of LEDs then dims only the colours of one side, unless the picture is gray.
     #[must_use]
     pub fn with_leds(self, leds: Leds) -> Stress<'m> {
         Stress { leds, ..self }
     }
 
-    /// The same fault at a share of the duration of the recording, from 0 to 1. Only a fault that grows with time depends on this share.
+    /// Sets the time, as a fraction of the duration of the recording, from 0 to 1. Only a fault that grows with time depends on it.
     #[must_use]
     pub fn at(self, share: f64) -> Stress<'m> {
         match self.fault.grows() {
@@ -80,12 +80,12 @@ impl<'m> Stress<'m> {
         }
     }
 
-    /// The fault.
+    /// Kind of the fault.
     pub fn fault(&self) -> &'static Fault {
         self.fault
     }
 
-    /// The parameter.
+    /// Parameter of the fault, in the unit that the fault states.
     pub fn parameter(&self) -> f64 {
         self.parameter
     }
@@ -95,7 +95,7 @@ impl<'m> Stress<'m> {
         matches!(self.fault.effect, Effect::Before)
     }
 
-    /// The picture `frame` of `sample` with the fault. `before` is the previous picture, if any.
+    /// Returns the picture `frame` of `sample` with the fault. `before` is the previous picture, if any.
     pub fn apply(&self, frame: &Frame, sample: &str, before: Option<&Frame>) -> Frame {
         if self.parameter <= 0.0 || frame.bytes().is_empty() {
             return frame.clone();
@@ -128,7 +128,7 @@ impl<'m> Stress<'m> {
         }
     }
 
-    /// The numbers `signals` with the fault, `hours` after the first sample. `full_scale` has the greatest change by contact of each number of a taxel.
+    /// Returns `signals` with the fault, `hours` after the first sample. `full_scale` has the greatest change by contact of each number of a taxel.
     /// A fault of another kind changes no signals.
     pub fn apply_to_signals(&self, signals: &Signals, full_scale: &[f64], hours: f64) -> Signals {
         let change = match self.fault.effect {
@@ -147,7 +147,7 @@ impl<'m> Stress<'m> {
         Signals::new(signals.info(), values).expect("as many numbers as before, all finite")
     }
 
-    /// True if the fault leaves out the row of `sample`.
+    /// True if the fault removes the row of `sample` from the recording.
     pub fn leaves_out(&self, sample: &str) -> bool {
         self.fault.is_of_rows() && self.draws(sample).unit(0) < self.parameter
     }
@@ -157,7 +157,7 @@ impl<'m> Stress<'m> {
         self.repeats() && self.draws(sample).unit(0) < self.parameter
     }
 
-    /// Strength and random numbers of the fault in the picture of `sample`.
+    /// Parameter and random numbers of the fault in the picture of `sample`.
     fn drawn(&self, sample: &str) -> Realisation {
         Realisation {
             parameter: single(self.parameter),
@@ -165,7 +165,7 @@ impl<'m> Stress<'m> {
         }
     }
 
-    /// Markers of the untouched picture at their places in `frame`; `None` if none is known.
+    /// Positions in `frame` of the markers of the untouched picture; `None` if none is found.
     fn markers_of(&self, frame: &Frame) -> Option<Markers> {
         let tracker = self.markers?;
         let tracked = tracker.track(frame).ok()?;
@@ -189,7 +189,7 @@ impl<'m> Stress<'m> {
         }
     }
 
-    /// Random numbers of the fault.
+    /// Random numbers of the fault, which depend on no sample.
     pub(crate) fn of_fault(&self) -> Draws {
         Draws::new(mix(mix(self.seed) ^ fnv_1a(self.fault.id.as_bytes())))
     }

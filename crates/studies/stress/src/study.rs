@@ -1,4 +1,4 @@
-//! A stress test: faults of the pictures or signals of a recording, scored with a fitted model.
+//! Stress test: the errors of a fitted model on the pictures or signals of a recording with faults.
 
 use taceva_check::{FrameFacts, RestChange, Tiles};
 use taceva_core::Frame;
@@ -31,7 +31,7 @@ use crate::stress::Stress;
 use crate::taxel_scores::TaxelTest;
 use crate::worn::{NewGel, ScoredFault};
 
-/// Errors of `model` on the pictures or signals of `dataset` with faults. Nothing is fitted.
+/// Measures the errors of `model` on the pictures or signals of `dataset` with faults. The model is not fitted again.
 ///
 /// # Errors
 /// [`EvaluateError`] if the request is not valid, the model does not suit the recording, or a picture cannot be read.
@@ -230,7 +230,7 @@ fn measure(
     })
 }
 
-/// Scores of all cells.
+/// Scores of all cells; a cell is one fault at one severity.
 struct Results<'a> {
     scale: &'a Scale,
     clean: &'a ByChannel<CleanScore>,
@@ -239,12 +239,12 @@ struct Results<'a> {
     dataset: &'a Dataset,
     /// Scored rows.
     rows: &'a [usize],
-    /// Codes of the checks that find something without a fault.
+    /// Codes of the checks that find something in the pictures without a fault.
     codes: Vec<&'static str>,
 }
 
 impl Results<'_> {
-    /// Positions of the cells of a fault.
+    /// Indices of the cells of the fault with the index `fault`.
     fn positions(&self, fault: usize) -> impl Iterator<Item = usize> {
         let positions = 0..self.found.cells.len();
         positions.filter(move |position| self.found.cells[*position].fault == fault)
@@ -314,7 +314,7 @@ impl Results<'_> {
         }
     }
 
-    /// Codes of the checks that find the fault in every draw, and find nothing without the fault.
+    /// Codes of the checks that find the fault of cell `at` in every random draw, and find nothing without the fault.
     fn check(&self, at: usize) -> Vec<&'static str> {
         let draws = &self.found.cells[at].draws;
         let of_draw = |draw: usize| {
@@ -333,7 +333,7 @@ impl Results<'_> {
         found
     }
 
-    /// True if the check of untouched pictures finds the fault. The fault is also in the pictures of contact.
+    /// True if the check of untouched pictures finds the fault. It compares pictures of contact that also have the fault.
     fn is_noticed(&self, stress: &Stress<'_>) -> bool {
         let Some(reference) = self.scale.reference() else {
             return false;
@@ -351,7 +351,7 @@ impl Results<'_> {
         change.is_some_and(|change| change.is_overall() || change.is_local())
     }
 
-    /// Mean degradation over all faults.
+    /// Degradation of each channel as a mean over all faults.
     fn mean(&self, faults: usize, others: &[ScoredFault]) -> ByChannel<Estimate> {
         let mean = |name: &String| {
             let of_fault = |fault| {

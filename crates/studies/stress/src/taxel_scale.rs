@@ -1,4 +1,4 @@
-//! Change of signals by contact: the unit of the strength of faults of taxels.
+//! Change of signals by contact, which is the unit of the strength of faults of taxels.
 
 use taceva_check::SignalFacts;
 use taceva_core::Signals;
@@ -12,18 +12,19 @@ use crate::scale::{contact_rows, least_loaded, mean};
 /// # Units
 /// The unit of the signals.
 pub(crate) struct TaxelScale {
-    /// Statistics without samples, with the mean signals without contact if the recording declares them.
+    /// Statistics of signals. They contain no sample yet, but the mean signals without contact, if the recording declares them.
     pub(crate) facts: SignalFacts,
-    /// Mean change of a number by contact; `None` if it is unknown or zero.
+    /// Mean change of a signal value by contact; `None` if it is unknown or zero.
     pub(crate) contact: Option<f64>,
-    /// Greatest change by contact of each number of a taxel.
+    /// Greatest change by contact of each channel of a taxel, over all taxels.
     pub(crate) full_scale: Vec<f64>,
     /// Origin of the untouched signals.
     pub(crate) source: &'static str,
 }
 
 impl TaxelScale {
-    /// Scale of `rows`; `None` without signals. The untouched signals are the declared mean without contact, or the signals of the least load.
+    /// Measures the change by contact in the signals of `rows`; `None` without signals. The untouched signals are the declared mean without contact,
+    /// or the signals of the least load.
     pub(crate) fn of(
         dataset: &Dataset,
         rows: &[usize],
@@ -57,7 +58,7 @@ impl TaxelScale {
     }
 }
 
-/// Mean absolute difference of the numbers of two samples.
+/// Mean absolute difference of the signals of two samples, over all values.
 pub(crate) fn change(one: &Signals, other: &Signals) -> f64 {
     mean(changes_of(one, other)).unwrap_or(0.0)
 }

@@ -1,4 +1,4 @@
-//! Signals of taxels with faults: one pass over the scored samples, and its scores.
+//! Scores of a model on signals of taxels with faults, from one pass over the samples.
 
 use std::num::NonZeroUsize;
 
@@ -22,7 +22,7 @@ use crate::worn::{NewGel, ScoredFault};
 /// Seconds in an hour.
 const HOUR_S: f64 = 3600.0;
 
-/// Predictions without a fault, and of every fault of taxels.
+/// Predictions without a fault, and with each fault of taxels at each severity.
 ///
 /// # Shapes
 /// Predictions: `[rows, draws, channels]`, row after row; one draw without a fault.
@@ -33,30 +33,30 @@ pub(crate) struct TaxelTest {
     cells: Vec<Cell>,
 }
 
-/// A fault of taxels of one severity.
+/// Fault of taxels at one severity.
 struct Cell {
     fault: &'static Fault,
     level: Level,
     draws: Vec<CellDraw>,
-    /// Predictions with the untouched signals from before the fault.
+    /// Predictions of a model that uses the untouched signals from before the fault.
     stale: Vec<f64>,
-    /// Predictions with untouched signals from after the fault; empty without them.
+    /// Predictions with new untouched signals, which have the fault; empty without them.
     fresh: Vec<f64>,
-    /// Sum over all samples of their changes, each a mean over draws.
+    /// Sum over all samples of the mean change of their signals by the fault, each a mean over random draws.
     changes: f64,
 }
 
-/// One draw of a fault.
+/// One random draw of a fault.
 struct CellDraw {
     stress: Stress<'static>,
-    /// Feature extractor with untouched signals from after the fault; `None` if the model reads none or the recording has none.
+    /// Feature extractor with new untouched signals, which have the fault; `None` if the model reads none or the recording has none.
     fresh: Option<Extractor>,
     /// Statistics of the signals with the fault.
     facts: SignalFacts,
 }
 
 impl TaxelTest {
-    /// Predictions of `rows` with each of `faults`. Reads the signals of a row once for all faults.
+    /// Predicts `rows` with each of `faults`. Reads the signals of a row once for all faults.
     pub(crate) fn of(
         dataset: &Dataset,
         model: &Model,
@@ -104,7 +104,7 @@ impl TaxelTest {
         Ok(test)
     }
 
-    /// Adds the next sample, `hours` after the first.
+    /// Adds the predictions of the next sample, which was recorded `hours` after the first.
     fn add(
         &mut self,
         signals: &Signals,
@@ -134,7 +134,7 @@ impl TaxelTest {
 }
 
 impl Cell {
-    /// Cell of `fault` without a sample, in a recording of `end` hours.
+    /// Creates the cell of `fault` at `level`, without samples. The recording takes `end` hours.
     fn new(
         fault: &'static Fault,
         level: Level,
@@ -168,7 +168,7 @@ impl Cell {
         }
     }
 
-    /// Codes of the checks of taxels that find the fault in every draw, and are not in `clean`.
+    /// Codes of the checks of taxels that find the fault in every random draw, except the codes in `clean`.
     fn check(&self, dataset: &Dataset, clean: &[&'static str]) -> Vec<&'static str> {
         let draws = self.draws.iter();
         let draws = draws.map(|draw| codes_of_signals(dataset, &draw.facts));
@@ -180,7 +180,7 @@ impl Cell {
 }
 
 impl NewGel<'_> {
-    /// Scores of `fault`, one of the faults of `test`.
+    /// Scores the predictions with `fault`, which is one of the faults of `test`.
     pub(crate) fn by_taxels(
         &self,
         fault: &'static Fault,

@@ -3,7 +3,7 @@
 use taceva_core::random::Draws;
 use taceva_core::single;
 
-/// Remark on faults of taxels.
+/// Note in the report on faults of taxels.
 pub(crate) const BY_PARAMETER: &str = "its severity is its parameter, not a stimulus";
 
 /// Change that a fault makes to signals.
@@ -11,16 +11,16 @@ pub(crate) const BY_PARAMETER: &str = "its severity is its parameter, not a stim
 pub(crate) struct TaxelChange {
     /// True if the change grows with time.
     pub(crate) grows: bool,
-    /// Changes the numbers of all taxels, taxel by taxel.
+    /// Function that changes the signals of all taxels, given taxel by taxel.
     pub(crate) change: fn(&mut [f32], &TaxelDraw<'_>),
 }
 
-/// Strength and random numbers of a fault of taxels.
+/// Parameter and random numbers of a fault of taxels.
 pub(crate) struct TaxelDraw<'a> {
     pub(crate) parameter: f64,
-    /// Numbers of a taxel.
+    /// Number of channels of a taxel.
     pub(crate) channels: usize,
-    /// Greatest change by contact of each number of a taxel.
+    /// Greatest change by contact of each channel of a taxel, over all taxels.
     pub(crate) full_scale: &'a [f64],
     /// Time since the first sample, h.
     pub(crate) hours: f64,
@@ -28,7 +28,7 @@ pub(crate) struct TaxelDraw<'a> {
 }
 
 impl TaxelDraw<'_> {
-    /// 1 or −1, with equal chance.
+    /// Random sign with the index `counter`: 1 or −1, with equal probability.
     pub(crate) fn sign(&self, counter: u64) -> f64 {
         match self.draws.unit(counter) < 0.5 {
             true => 1.0,
@@ -37,7 +37,7 @@ impl TaxelDraw<'_> {
     }
 }
 
-/// The number in single precision; beyond its range, the nearest finite number.
+/// Rounds to single precision. A number beyond its range becomes the nearest finite number.
 pub(crate) fn finite(number: f64) -> f32 {
     single(number).clamp(f32::MIN, f32::MAX)
 }

@@ -1,4 +1,4 @@
-//! Metrics of time of a recording from which a fault leaves rows out.
+//! Metrics of the times of rows, such as the frame rate, after a fault has removed rows.
 
 use taceva_evaluate::EvaluateError;
 
@@ -11,7 +11,7 @@ use crate::times::time_scores;
 use crate::worn::{NewGel, ScoredFault};
 
 impl NewGel<'_> {
-    /// Metrics of time with `fault`, which leaves rows out. Errors of predictions are not computed.
+    /// Computes metrics of the times that remain after `fault` has removed rows. Errors of predictions are not computed.
     pub(crate) fn by_rows(
         &self,
         fault: &'static Fault,

@@ -1,4 +1,4 @@
-//! Metrics of time of some rows of a recording.
+//! Metrics of the times of selected rows of a recording, such as the frame rate.
 
 use std::num::NonZeroUsize;
 
@@ -9,10 +9,10 @@ use taceva_metrics::{MetricPlan, catalogue};
 
 use crate::report::{ByChannel, TimeScore};
 
-/// Metrics of time that need no prediction.
+/// Names of the metrics of times that need no prediction.
 const METRICS: [&str; 3] = ["frame_rate", "jitter", "dropped"];
 
-/// Metrics of time of `rows`; empty without times.
+/// Computes the metrics of the times of `rows`; empty if they have no times.
 pub(crate) fn time_scores(
     dataset: &Dataset,
     rows: &[usize],
@@ -41,7 +41,7 @@ pub(crate) fn time_scores(
     Ok(scores.collect())
 }
 
-/// True if the times of all rows of `dataset` form a stream, so that a frame rate is defined.
+/// True if the rows of `dataset` were recorded continuously, so that a frame rate is defined.
 pub(crate) fn is_stream(dataset: &Dataset) -> Result<bool, EvaluateError> {
     let scores = time_scores(dataset, &dataset.all_rows())?;
     Ok(scores.get(METRICS[0]).is_some_and(|of| of.value.is_some()))

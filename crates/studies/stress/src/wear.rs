@@ -1,4 +1,4 @@
-//! Wear: errors of a fitted model on recordings of one unit, from its first to its last.
+//! Wear of a sensor: errors of a fitted model on recordings of one unit, from the first recording to the last.
 
 mod comparison;
 mod order;
@@ -26,16 +26,16 @@ use trend::{ErrorAt, Trend};
 pub use order::WearBy;
 pub use report::{ChannelWear, GelWear, LimitMet, RecordingWear, WEAR_SCHEMA, WearReport};
 
-/// Order of recordings, and limits of errors.
+/// Request of a comparison of recordings: their order, and limits of errors.
 #[derive(Clone, Debug, Default)]
 pub struct WearRequest {
     /// Quantity that orders the recordings; `None` for presses if every recording states them, otherwise for the date.
     pub by: Option<WearBy>,
-    /// Greatest mean absolute error of channels or planes.
+    /// Greatest accepted mean absolute error, by channel or plane.
     pub limits: ByChannel<Amount>,
 }
 
-/// Errors of `model` on `recordings` of one unit, in the order of their age. Nothing is fitted to the pictures.
+/// Measures the errors of `model` on `recordings` of one sensor unit, in the order of their age. The model is not fitted again.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] if the recordings are not of one unit or have no order, or if a limit suits no channel. Other [`EvaluateError`] if the
@@ -88,7 +88,7 @@ pub fn wear(
     })
 }
 
-/// The error, prefixed with the folder of the recording if it is a request error without this prefix.
+/// Adds the folder of the recording to the text of a request error that does not begin with it. Other errors are unchanged.
 fn named(dataset: &Dataset, error: EvaluateError) -> EvaluateError {
     let folder = format!("{}: ", shown(dataset.path()));
     match error {
@@ -131,7 +131,7 @@ fn check_limits(model: &Model, limits: &ByChannel<Amount>) -> Result<(), Evaluat
     Ok(())
 }
 
-/// Scores and untouched picture of one recording.
+/// Scores of one recording, and its untouched picture.
 struct Measured {
     scored: Scored,
     units: ByChannel<&'static str>,
@@ -139,7 +139,7 @@ struct Measured {
     left_out: usize,
     untouched: Option<Frame>,
     source: &'static str,
-    /// Mean change of a picture by contact; `None` in later recordings of a gel.
+    /// Mean change of a picture by contact; `None` except in the first recording of a gel.
     contact: Option<f64>,
     provenance: Provenance,
 }
@@ -187,7 +187,7 @@ impl Measured {
         notes.collect()
     }
 
-    /// Change of the untouched picture from the untouched picture of `first`, relative to the change by contact in `first`; `None` if unknown.
+    /// Difference of the untouched picture from that of `first`, as a ratio to the change by contact in `first`; `None` if unknown.
     fn stimulus(&self, first: &Measured) -> Option<f64> {
         let (own, before) = (self.untouched.as_ref()?, first.untouched.as_ref()?);
         let contact = first.contact.filter(|_| own.info() == before.info())?;

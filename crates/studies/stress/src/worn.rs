@@ -1,4 +1,4 @@
-//! Faults of a gel: the same presses on a worn gel, so that force and picture change together.
+//! Faults of a gel. The same presses are made on a worn gel, so that force and picture change together.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use crate::report::{ByChannel, CleanScore, FaultReport, SeverityReport, SkippedF
 use crate::scale::{Scale, difference};
 use crate::score::{Scored, Scorer, degradation};
 
-/// A fault of a gel, with a recording of the same presses for each severity. A simulated bench makes it; callers only read it.
+/// Fault of a gel, with a recording of the same presses on a worn gel for each severity. A simulated bench makes it; callers only read it.
 #[derive(Debug)]
 pub struct WornFault {
     /// Name of the fault, such as `gel_softening`.
@@ -24,28 +24,28 @@ pub struct WornFault {
     pub title: String,
     /// Meaning and unit of the parameter.
     pub parameter: String,
-    /// Severities, ascending.
+    /// Worn gels in ascending order of severity.
     pub severities: Vec<WornGel>,
-    /// Severities that the gel cannot have, with reasons.
+    /// Severities that the bench cannot make of this gel, with reasons.
     pub skipped: Vec<SkippedFault>,
 }
 
-/// The same presses on a gel with a fault of one severity. A simulated bench makes it; callers only read it.
+/// Recording of the same presses on a gel with a fault of one severity. A simulated bench makes it; callers only read it.
 #[derive(Debug)]
 pub struct WornGel {
     /// The severity, from 1 to 5.
     pub severity: u8,
     /// Parameter of the fault.
     pub parameter: f64,
-    /// The recording; its samples have the names of the samples on the new gel.
+    /// Recording on the worn gel. Its samples have the names of the samples on the new gel.
     pub dataset: Dataset,
 }
 
-/// The new gel, and its scores.
+/// Recording on the new gel, and its scores.
 pub(crate) struct NewGel<'a> {
     pub(crate) dataset: &'a Dataset,
     pub(crate) model: &'a Model,
-    /// Scored samples, ascending.
+    /// Rows of the scored samples, ascending.
     pub(crate) rows: &'a [usize],
     pub(crate) scorer: &'a Scorer<'a>,
     pub(crate) baseline: &'a Scored,
@@ -56,24 +56,24 @@ pub(crate) struct NewGel<'a> {
 /// Scores of one fault at each tested severity.
 pub(crate) struct ScoredFault {
     pub(crate) report: FaultReport,
-    /// Scores of each severity, with an untouched picture from before the fault.
+    /// Scores at each severity. The model uses the untouched picture from before the fault.
     pub(crate) cells: Vec<Scored>,
     pub(crate) skipped: Vec<SkippedFault>,
     /// Number of decoded pictures.
     pub(crate) decoded: u64,
 }
 
-/// Predictions on a worn gel.
+/// Predictions from pictures of a worn gel.
 #[derive(Default)]
 struct Predictions {
     stale: Vec<f64>,
     fresh: Vec<f64>,
-    /// Sum of the changes of all pictures.
+    /// Sum over all pictures of their mean change by the fault, each a fraction of full scale.
     changes: f64,
 }
 
 impl NewGel<'_> {
-    /// Scores of `fault`. A severity whose recording lacks a sample is skipped, because the same presses are compared.
+    /// Scores the model on the recordings of `fault`. A severity whose recording lacks a sample is skipped, because the same presses are compared.
     pub(crate) fn beside(
         &self,
         fault: &WornFault,
@@ -128,7 +128,7 @@ impl NewGel<'_> {
         })
     }
 
-    /// Results of a fault with this name, title and parameter.
+    /// Builds the report of a fault with this name, title and parameter.
     pub(crate) fn report(
         &self,
         [id, title, parameter]: [&str; 3],
@@ -233,8 +233,8 @@ impl NewGel<'_> {
         Ok((is_noticed, after.decoded))
     }
 
-    /// True if the check of untouched pictures finds that `after` differs from the reference, relative to the change from `after` to the `pressed`
-    /// pictures.
+    /// True if the check of untouched pictures finds that `after` differs from the reference. It compares the difference with that of `pressed` from
+    /// `after`.
     pub(crate) fn differs(&self, after: &Frame, pressed: &[Frame]) -> bool {
         let before = self.scale.untouched.as_ref();
         let Some(before) = before.filter(|_| self.scale.is_reference) else {

@@ -1,7 +1,7 @@
 //! Inverse of the byte and bit shuffling of Blosc chunks.
 
-/// Reverses byte shuffling of elements of `element` bytes, which stores all first bytes of the elements, then all second bytes, and so on. An
-/// incomplete element at the end is not shuffled.
+/// Reverses byte shuffling, which stores all first bytes of elements of `element` bytes, then all second bytes, and so on. An incomplete element at
+/// the end is not shuffled.
 pub(crate) fn unshuffled_bytes(block: &mut [u8], element: usize) {
     let count = block.len() / element;
     let shuffled = block[..count * element].to_vec();

@@ -51,7 +51,7 @@ struct BlockColumn {
 const REMEDY: &str =
     "write it with `df.to_parquet(path)`, or with `df.to_hdf(path, key=\"run\", format=\"table\")`";
 
-/// Store of a file. Data frames, if any, are replaced by their columns.
+/// Creates the store of an HDF5 file. Data frames, if any, are replaced by their columns.
 pub(crate) fn store(hdf5: Hdf5) -> Box<dyn Store> {
     let arrays = hdf5.arrays();
     let is_of_frame = |name: &String| {

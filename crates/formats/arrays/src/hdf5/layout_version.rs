@@ -75,7 +75,7 @@ mod tests {
     use super::super::structures::header;
     use super::*;
 
-    /// Continuation block with these messages, each with a head of `head` bytes.
+    /// Builds a continuation block of an object header for a test. Each message has a head of `head` bytes.
     fn continuation(messages: &[(u8, Vec<u8>)], head: usize) -> Vec<u8> {
         let mut block = b"OCHK".to_vec();
         for (number, body) in messages {

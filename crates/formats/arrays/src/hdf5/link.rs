@@ -36,7 +36,7 @@ pub(super) fn of(file: &FileBytes, name: &str) -> Option<Problem> {
     None
 }
 
-/// Type and value of the link message whose name length is stored at `place`; `None` for other bytes.
+/// Type and value of the link message whose name length is stored at the offset `place`; `None` for other bytes.
 fn message(bytes: &[u8], place: usize, length: usize) -> Option<(u8, Vec<u8>)> {
     // Before the name: version 1, flags, the type, and by the flags the creation order and the character set.
     let is_head = |before: usize| {

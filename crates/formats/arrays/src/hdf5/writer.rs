@@ -1,8 +1,8 @@
 //! Writer of HDF5 files with contiguous arrays, one after another. Rows are written to the disk as they arrive. The metadata follows at the end.
 //!
 //! `hdf5-pure` is used for reading only. Its writer accepts an array of several axes only in memory, and a recording of pictures is larger. The
-//! output uses the minimum of HDF5 File Format Specification, version 3: superblock and object headers of version 2 with checksums, and links in the
-//! header of the root group. Every HDF5 library since 1.8 reads this format.
+//! output uses a minimum of version 3 of the HDF5 File Format Specification. The superblock and object headers have version 2 and checksums. Links
+//! are in the header of the root group. Every HDF5 library since 1.8 reads this format.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};

@@ -38,7 +38,7 @@ pub(crate) fn words(bytes: [u8; 8], is_big_endian: bool) -> (u32, u32) {
     (word([a, b, c, d]), word([e, f, g, h]))
 }
 
-/// Reads the tag at `place`. Rejects an element beyond the end of the source.
+/// Reads the tag at `place`. Rejects an element that extends beyond the end of the source.
 pub(crate) fn tag(source: &dyn ByteSource, place: Place) -> Result<Tag, Problem> {
     let bytes = bytes_of(source, place.at, 8)?;
     let first = bytes.first_chunk::<8>().copied().unwrap_or_default();

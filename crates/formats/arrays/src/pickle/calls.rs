@@ -1,4 +1,4 @@
-//! Values constructed in place of the calls of a pickle: arrays, their types, numbers, bytes of texts.
+//! Values that are constructed instead of running the calls of a pickle: arrays, their types, numbers, bytes of texts.
 
 use std::sync::Arc;
 
@@ -120,7 +120,7 @@ pub(crate) fn build(
     Ok(())
 }
 
-/// Type of an array. The default byte order is the order of this machine.
+/// Element type of an array, from the pickled object `dtype`. The default byte order is the order of this machine.
 fn dtype_of(machine: &Machine<'_>, dtype: Id, at: u64) -> Result<DType, Problem> {
     match machine.value(dtype) {
         Value::DType(DType::Named(name)) => Scalar::from_numpy(name).map(DType::Known),

@@ -22,7 +22,7 @@ pub(crate) enum Cells {
     Array(PickledArray),
     /// Consecutive arrays of the same shape and type.
     Arrays(Vec<PickledArray>),
-    /// Numbers or texts that are not in an array, by their ids.
+    /// Values that are not in an array, by their ids.
     Plain { element: Element, ids: Vec<Id> },
 }
 

@@ -15,7 +15,7 @@ use crate::source::{ByteSource, bytes_of};
 pub(crate) struct Machine<'a> {
     pub(crate) source: &'a dyn ByteSource,
     pub(crate) values: Vec<Value>,
-    /// Number of bytes converted from texts. The length of the file limits this number.
+    /// Number of bytes in memory that were converted from texts. The length of the file limits this number.
     pub(crate) held_bytes: u64,
     stack: Vec<Id>,
     /// Stack heights at which the open groups of values begin.

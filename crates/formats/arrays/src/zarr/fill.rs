@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::fields::Item;
 
-/// Bytes of one element with this fill value; `None` if the value is of an unknown kind.
+/// Bytes of one element of the type `item` with the fill value `value`; `None` if the value is of an unknown kind.
 pub(crate) fn fill(value: &Value, item: &Item) -> Option<Vec<u8>> {
     let zero = || Some(vec![0; item.bytes]);
     let scalar = match item.fields.as_slice() {

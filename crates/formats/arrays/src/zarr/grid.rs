@@ -104,7 +104,7 @@ impl Grid {
         places
     }
 
-    /// Copies the requested part of the chunk at `place` to `raw`.
+    /// Copies the requested part of the chunk at the grid position `place` to `raw`.
     pub(crate) fn copy(&self, place: &[u64], chunk: &[u8], raw: &mut [u8]) {
         let axes = self.wanted.len();
         // Per axis: start of the part in the rows and in the chunk, its length, and the strides.

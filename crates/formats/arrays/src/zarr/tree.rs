@@ -59,7 +59,7 @@ impl Tree {
         }
     }
 
-    /// Bytes of the file `name` in this folder, at most `most`; `None` if the file does not exist. Errors name the file `what`.
+    /// Reads the file `name` in this folder, of at most `most` bytes; `None` if it does not exist. Error messages call the file `what`.
     pub(crate) fn bytes(
         &self,
         name: &str,

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 use taceva_arrays::{ArrayFile, ArrayValues};
 
-/// Shared recordings with files for these tests.
+/// Folders of the shared recordings whose files these tests read.
 pub(crate) const SHARED: [&str; 15] = [
     "hdf5-fletcher-earliest",
     "hdf5-fletcher-latest",

@@ -22,7 +22,7 @@ const RECORDINGS: &[(&str, &str, &str, &str, &str)] = &[
     ("pickle", "p4.pkl", "images", "p4.pkl", "ft"),
 ];
 
-/// HDF5 recordings: the pictures are `/tactile/left/rgb`, the wrench is `/force/wrench`.
+/// Folders of HDF5 recordings. Their pictures are `/tactile/left/rgb`, their forces and torques `/force/wrench`.
 #[cfg(feature = "hdf5")]
 const HDF5: &[&str] = &[
     "hdf5-gzip-shuffle-earliest",

@@ -304,7 +304,7 @@ impl Field {
     }
 }
 
-/// Column that `name` begins with. Of a structure, only the member that `name` selects is kept.
+/// Finds the column whose name `name` begins with. Of a structure, keeps only the member that `name` selects.
 pub(super) fn named(fields: &[Field], name: &str) -> Option<Field> {
     let names = fields.iter().map(|field| field.name.as_str());
     let (at, rest) = longest(name, names)?;

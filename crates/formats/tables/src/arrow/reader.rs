@@ -20,7 +20,7 @@ pub(super) struct Reader<'t> {
     name: &'t str,
     /// Unpacked buffers by their index in the batch.
     unpacked: BTreeMap<usize, Vec<u8>>,
-    /// Memory left for further cells, bytes.
+    /// Memory that further cells may take, bytes.
     pub(super) left: u64,
 }
 

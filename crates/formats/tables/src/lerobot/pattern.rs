@@ -71,7 +71,8 @@ impl Pattern {
         }
     }
 
-    /// Path with `values` in place of the named fields. Returns an error message if a field has no value, or the path would lead out of the folder.
+    /// Replaces the named fields by `values`, which gives a path. Returns an error message if a field has no value, or the path would lead out of the
+    /// folder.
     pub(super) fn fill(&self, values: &[(&str, Value<'_>)]) -> Result<PathBuf, String> {
         let mut path = String::new();
         for part in &self.parts {

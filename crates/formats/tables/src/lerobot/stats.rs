@@ -84,8 +84,7 @@ impl FeatureStats {
         self.elements.iter().map(|element| element.mean).collect()
     }
 
-    /// Statistics in the form of `meta/stats.json`; `None` if an element has no finite number. Each element of a picture is a list in a list, such as
-    /// `[[0.5]]`.
+    /// Statistics in the form of `meta/stats.json`; `None` if an element has no finite number. Each element of a picture is nested: `[[0.5]]`.
     pub(super) fn json(&self, is_picture: bool) -> Option<Value> {
         let is_seen = self.elements.iter().all(|element| element.count > 0.0);
         if !is_seen || self.elements.is_empty() {

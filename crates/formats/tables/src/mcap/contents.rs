@@ -125,7 +125,7 @@ fn check_data(source: &Source, chunks: &mut Chunks<'_>, data_end: u64) -> Result
     }
 }
 
-/// Contents from the summary; `None` if the summary is incomplete.
+/// Reads the contents of a file from its summary; `None` if the summary is incomplete.
 fn summary(
     source: &Source,
     begin: u64,
@@ -189,13 +189,13 @@ fn summary(
     Ok(is_whole.then_some(contents))
 }
 
-/// Contents from all records up to the end of the data. Unpacks every chunk once.
+/// Reads the contents of a file from all records up to the end of the data. Unpacks every chunk once.
 pub(super) fn walk(source: &Source) -> Result<Contents, TableError> {
     let end = source.length() - MAGIC.len() as u64;
     walk_records(source, end, false).map(|(contents, _)| contents)
 }
 
-/// Contents from the complete records of a truncated file, and the end offset of these records.
+/// Reads the contents of a truncated file from its complete records. Also returns the end offset of these records.
 pub(super) fn walk_to_cut(source: &Source) -> Result<(Contents, u64), TableError> {
     walk_records(source, source.length(), true)
 }

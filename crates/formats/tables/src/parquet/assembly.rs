@@ -1,5 +1,4 @@
-//! Assembly of the rows of a Parquet column from its leaf columns. The levels of an entry mark the beginning, continuation, emptiness or absence of a
-//! list.
+//! Assembly of the rows of a Parquet column from its leaf columns. The levels of an entry tell if a list begins, continues, is empty or is missing.
 
 use parquet::file::metadata::RowGroupMetaData;
 

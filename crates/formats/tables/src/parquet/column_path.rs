@@ -15,7 +15,7 @@ pub(crate) struct Found {
 }
 
 impl Found {
-    /// Finds the column that `name` begins with. Of its structures, only the members that `name` selects are kept.
+    /// Finds the column whose name `name` begins with. Of its structures, only the members that `name` selects are kept.
     pub(crate) fn new(source: &Source, columns: &[Node], name: &str) -> Result<Found, TableError> {
         let top = longest(name, columns.iter().map(|node| node.name.as_str()));
         let found = top.and_then(|(at, rest)| Some((narrow(&columns[at], rest)?, rest)));

@@ -21,8 +21,7 @@ const GROUP_ROWS: usize = 1000;
 /// Memory size of the cells of a row group at which the group ends before `GROUP_ROWS` rows, bytes.
 const GROUP_BYTES: u64 = 16 << 20;
 
-/// Writer of a Parquet file. Keeps one row group in memory and compresses it with snappy when it is full. Files of the same rows are equal byte for
-/// byte.
+/// Writer of a Parquet file. Keeps one row group in memory and compresses it with snappy when it is full. Files of equal rows have equal bytes.
 ///
 /// ```
 /// use taceva_tables::{Cell, ParquetTable, ParquetWriter, WrittenColumn, WrittenKind};

@@ -80,7 +80,7 @@ impl TopicTable {
         self.entries.len() as u64
     }
 
-    /// Names of the columns: the times, then the fields in the order of the schema. A list is one column. For JSON, the first message determines the
+    /// Names of the columns: the times, then the fields in the order of the schema. A list is one column. Of JSON messages, the first determines the
     /// fields.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! Decoder of CDR, the encoding of ROS 2. The offset of a number after the first four bytes is a multiple of the size of the number.
+//! Decoder of CDR, the encoding of ROS 2. The offset of a number, counted from the end of the first four bytes, is a multiple of its size.
 //!
 //! ROS 1 messages are packed without alignment from the first byte on.
 
@@ -11,7 +11,7 @@ use crate::limits;
 pub(crate) enum Want {
     /// Skips the field.
     Nothing,
-    /// Stores the whole field in the slot with this number.
+    /// Stores the whole field as a cell in the slot with this number.
     Whole(usize),
     /// Stores the bytes of a list of `uint8` in the slot with this number.
     Bytes(usize),

@@ -30,8 +30,7 @@ pub(super) struct Head {
 }
 
 impl Head {
-    /// Parses the head from `fields`. Each field has its length, its name, `=` and its value. `None` if the last field does not end at the end of
-    /// `fields`.
+    /// Parses the head. Each field has its length, its name, `=` and its value. `None` if the last field does not end at the end of `fields`.
     pub(super) fn new(fields: Vec<u8>, data_at: u64, end: u64) -> Option<Head> {
         let mut bytes = Bytes::new(&fields);
         while !bytes.rest().is_empty() {

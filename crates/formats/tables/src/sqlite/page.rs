@@ -11,7 +11,7 @@ pub(crate) struct Pages<'a> {
     pub(super) database: &'a Database,
     file: File,
     kept: Option<(u32, Arc<Vec<u8>>)>,
-    /// Location of the row that [`count`](Self::count) counted last.
+    /// Location of the row that was counted last.
     row: Option<RowPlace>,
     /// Total size of all counted rows, bytes.
     row_bytes: u64,
@@ -89,7 +89,7 @@ impl<'a> Pages<'a> {
         number > self.database.pages && number <= self.database.announced
     }
 
-    /// Error for a damaged page with this number.
+    /// Error for the damaged page `number`.
     pub(super) fn damaged(&self, number: u32, problem: impl Into<String>) -> TableError {
         let at = u64::from(number.saturating_sub(1)) * u64::from(self.database.page_bytes);
         let place = Place::byte(at).in_name(&format!("page {number}"));

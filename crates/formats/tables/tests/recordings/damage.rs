@@ -1,4 +1,4 @@
-//! Truncated copies of a file, and copies with flipped bits. Reading a copy must soon give a result or an error of this crate.
+//! Truncated copies of a file, and copies with flipped bits. Reading a copy must give a result or an error of this crate within a minute.
 
 use std::cell::RefCell;
 use std::panic::{self, AssertUnwindSafe};

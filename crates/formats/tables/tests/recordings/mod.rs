@@ -1,4 +1,4 @@
-//! Recordings under `tests/data` and `../../../tests/recordings`, with the values that their own libraries read back.
+//! Recordings under `tests/data` and `../../../tests/recordings`, with the values that the libraries which wrote them read back.
 
 #![allow(dead_code, reason = "each test program uses a part")]
 

@@ -112,7 +112,7 @@ fn version_2_1_has_a_file_an_episode() {
     }
 }
 
-/// Brightness of the picture in each row, as `make.py` draws it.
+/// Visits the pictures of `rows`. Returns each row with the brightness of its picture, as `make.py` draws it.
 fn red(dataset: &LeRobot, rows: &[u64]) -> Vec<(u64, u8)> {
     let mut seen = Vec::new();
     dataset

@@ -25,8 +25,7 @@ pub(super) struct Baseline {
 pub(super) struct Difference {
     /// Mean difference over all pixel values, above 0 for a brighter picture.
     pub(super) level: f64,
-    /// Mean over all cells of the absolute mean difference of a cell, after the common change of brightness is removed. Pixel noise hardly affects
-    /// it.
+    /// Mean over all cells of the absolute mean difference of a cell, without the common change of brightness. Pixel noise hardly affects it.
     pub(super) pattern: f64,
     /// Mean over all pixel values of the absolute deviation of their difference from that of their cell, after the same correction.
     pub(super) detail: f64,

@@ -85,7 +85,7 @@ pub struct Alarm {
 }
 
 impl Alarm {
-    /// Alarm for a change with this strength; `None` without a strength.
+    /// Creates the alarm for a change with the strength `strength`; `None` without a strength.
     pub(super) fn of(change: Change, picture: u64, strength: Option<f64>) -> Option<Alarm> {
         let strength = strength?;
         Some(Alarm {

@@ -7,8 +7,7 @@ pub(super) const LEARNT: usize = 200;
 /// Number of newest pictures that are compared with the limit.
 pub(super) const WINDOW: usize = 30;
 
-/// Minimum limit, in multiples of the greatest excess of any run of [`WINDOW`] pictures while the limit is set. Slow flicker makes this limit
-/// decisive.
+/// Minimum limit, in multiples of the greatest excess of a run of [`WINDOW`] pictures while the limit is set. It matters if flicker is slow.
 pub(super) const RUNS: f64 = 3.0;
 
 /// Numbers of pictures that determine the limit, and that show a change.

@@ -1,4 +1,4 @@
-//! Differences of errors from the errors of the first recording of a gel.
+//! Tested differences of the errors of later recordings from those of the first recording of a gel.
 
 use taceva_metrics::{Difference, Estimate, Sides, by_intervals};
 
@@ -6,14 +6,14 @@ use crate::difference::{ErrorDifference, decided};
 use crate::report::ByChannel;
 use crate::score::Scored;
 
-/// Channel of a later recording.
+/// Channel and recording of a difference.
 struct Place<'a> {
     channel: &'a str,
-    /// Position among the later recordings.
+    /// Index of the recording among the later recordings.
     later: usize,
 }
 
-/// Differences of the errors of each of `later` from the errors of `first`. The differences are one family of Holm's procedure.
+/// Differences of the errors of each of `later` from the errors of `first`. Holm's procedure tests all differences together.
 pub(crate) fn differences(first: &Scored, later: &[&Scored]) -> Vec<ByChannel<ErrorDifference>> {
     let mut places: Vec<Place<'_>> = Vec::new();
     let mut tested: Vec<Result<Difference, String>> = Vec::new();

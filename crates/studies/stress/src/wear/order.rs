@@ -8,7 +8,7 @@ use taceva_core::{Date, shown};
 use taceva_dataset::Dataset;
 use taceva_evaluate::EvaluateError;
 
-/// Quantity that orders recordings.
+/// Quantity that orders the recordings of a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum WearBy {
@@ -19,7 +19,7 @@ pub enum WearBy {
 }
 
 impl WearBy {
-    /// Number of presses or days in one step, for which the growth of an error is stated.
+    /// Number of presses or days for which the growth of an error is stated.
     pub fn step(self) -> f64 {
         match self {
             WearBy::Presses => 1000.0,
@@ -27,7 +27,7 @@ impl WearBy {
         }
     }
 
-    /// Unit of a place in the order.
+    /// Unit of the quantity.
     pub fn unit(self) -> &'static str {
         match self {
             WearBy::Presses => "presses",
@@ -36,9 +36,9 @@ impl WearBy {
     }
 }
 
-/// A recording at its place in the life of a gel.
+/// Recording with its age: the number of presses or days in the life of the gel.
 pub(crate) struct Placed {
-    /// Position among the recordings.
+    /// Index of the recording among all recordings.
     pub(crate) at: usize,
     pub(crate) presses: Option<u32>,
     /// First day of the recording; `None` if unknown.
@@ -47,15 +47,15 @@ pub(crate) struct Placed {
     pub(crate) place: f64,
 }
 
-/// Recordings of one unit, by gel and place.
+/// Recordings of one sensor unit, by gel and, for each gel, in the order of their age.
 pub(crate) struct Order {
     pub(crate) by: WearBy,
-    /// Recordings of each gel in the order of their places, by the name of the gel.
+    /// Recordings of each gel in the order of their age. The gels are in the order of their names.
     pub(crate) gels: Vec<Vec<Placed>>,
 }
 
 impl Order {
-    /// Order of `recordings` by `wanted`; by presses if every recording states them, otherwise by date.
+    /// Orders `recordings` by `wanted`. For `None`, by presses if every recording states them, otherwise by date.
     pub(crate) fn of(
         recordings: &[Dataset],
         wanted: Option<WearBy>,
@@ -91,7 +91,7 @@ fn refused<T>(words: String) -> Result<T, EvaluateError> {
     Err(EvaluateError::Request(words))
 }
 
-/// Refuses fewer than two recordings, a recording given twice or together with its earlier state, and recordings of several units.
+/// Refuses fewer than two recordings, recordings of several units, and a recording that is given twice or together with an earlier state of it.
 fn check_unit(recordings: &[Dataset]) -> Result<(), EvaluateError> {
     let expected = "expected two or more recordings of one unit, made at different times";
     let [first, others @ ..] = recordings else {
@@ -129,7 +129,7 @@ fn check_unit(recordings: &[Dataset]) -> Result<(), EvaluateError> {
     Ok(())
 }
 
-/// Refuses a later recording of the same gel with fewer presses.
+/// Refuses a recording with fewer presses than an earlier recording of the same gel.
 fn check_presses(recordings: &[Dataset], gel: &[Placed]) -> Result<(), EvaluateError> {
     let mut dated: Vec<(Date, u32, usize)> = gel
         .iter()
@@ -149,7 +149,7 @@ fn check_presses(recordings: &[Dataset], gel: &[Placed]) -> Result<(), EvaluateE
     ))
 }
 
-/// Sets the place of each recording of a gel, and sorts by place.
+/// Sets the age of each recording of a gel, in presses or days, and sorts by age.
 fn place(recordings: &[Dataset], gel: &mut [Placed], by: WearBy) -> Result<(), EvaluateError> {
     let first = gel.iter().filter_map(|of| of.day).min();
     let day = |day: Date| day.days_since_1970() as f64;

@@ -1,4 +1,4 @@
-//! Result of a comparison of recordings of one unit.
+//! Report of a comparison of recordings of one sensor unit.
 
 use serde::Serialize;
 
@@ -10,21 +10,21 @@ use crate::estimate::{Estimate, Undefined};
 use crate::report::ByChannel;
 use crate::wear::order::WearBy;
 
-/// Schema of the result.
+/// Name and version of the JSON schema of the report.
 pub const WEAR_SCHEMA: &str = "taceva.wear/1";
 
 /// Errors of a model on recordings of one unit, in the order of their age.
 #[derive(Clone, Debug, Serialize)]
 pub struct WearReport {
-    /// Schema of the result.
+    /// Name and version of the schema of this report.
     pub schema: &'static str,
-    /// The sensor.
+    /// Sensor that was compared.
     pub subject: Subject,
-    /// Statement on samples that were not measured; `None` if all were.
+    /// Warning that samples are, or may be, simulated or synthetic and not measured; `None` without such samples.
     pub not_measured: Option<String>,
     /// Quantity that orders the recordings.
     pub by: WearBy,
-    /// Number of presses or days in one step, for which a slope is stated.
+    /// Number of presses or days for which the slopes are stated.
     pub step: f64,
     /// Unit of each channel.
     pub units: ByChannel<&'static str>,
@@ -34,7 +34,7 @@ pub struct WearReport {
     pub notes: Vec<String>,
 }
 
-/// Recordings of one gel.
+/// Recordings of one gel, and the growth of their errors.
 #[derive(Clone, Debug, Serialize)]
 pub struct GelWear {
     /// Name of the gel.
@@ -56,7 +56,7 @@ pub struct RecordingWear {
     pub presses_since_gel: Option<u32>,
     /// First day of the recording, if it is known.
     pub day: Option<Date>,
-    /// Presses on the gel, or days from its first recording.
+    /// Age of the gel: number of presses, or of days from its first recording.
     pub place: f64,
     /// Number of predicted samples.
     pub samples: usize,
@@ -64,36 +64,36 @@ pub struct RecordingWear {
     pub left_out: usize,
     /// Untouched picture: `reference`, `least load`, or `none`.
     pub untouched: &'static str,
-    /// Change of the untouched picture since the first recording, divided by the mean change by contact in the first recording; `None` if unknown.
+    /// Difference of the untouched picture from that of the first recording, divided by the mean change by contact there; `None` if unknown.
     pub stimulus: Option<f64>,
-    /// Mean absolute errors.
+    /// Mean absolute error over the samples, by channel.
     pub mae: ByChannel<Estimate>,
-    /// Differences of the errors from the errors of the first recording; empty for the first recording.
+    /// Differences of the mean absolute errors from those of the first recording, by channel; empty for the first recording.
     pub differences: ByChannel<ErrorDifference>,
-    /// Origin of the numbers.
+    /// Origin of the scores: data, model and program.
     pub provenance: Provenance,
 }
 
 /// Growth of the error of one channel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ChannelWear {
-    /// Growth of the natural logarithm of the error in one step of presses or days.
+    /// Growth of the natural logarithm of the mean absolute error in one [`step`](WearReport::step) of presses or days.
     pub slope: Estimate,
-    /// Place at which the limit of the channel is met; `None` without a limit.
+    /// Presses or days at which the error reaches the limit of the channel; `None` without a limit.
     pub limit: Option<LimitMet>,
-    /// Folder of the first recording whose error is shown to differ from the error of the first recording; `None` without such a recording.
+    /// Folder of the earliest recording whose error differs significantly from that of the first; `None` if there is none.
     pub first_different: Option<String>,
 }
 
-/// Place at which an error meets its limit.
+/// Presses or days at which an error reaches its limit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LimitMet {
-    /// The limit, in the unit of the channel.
+    /// Limit of the error, in the unit of the channel.
     pub limit: f64,
-    /// Presses on the gel, or days from its first recording, at which the trend meets the limit; 0 for a place below 0, `None` if unknown.
+    /// Number of presses, or of days from the first recording, at which the trend reaches the limit. At least 0; `None` if unknown.
     pub at: Option<f64>,
-    /// One-sided 95 % bound: the error of a recording before this place is below the limit. `None` without a bound.
+    /// One-sided 95 % bound of `at`: before this number of presses or days, the error of a recording is below the limit. `None` without a bound.
     pub not_before: Option<f64>,
-    /// Reason for an absent place; `None` if the place is known.
+    /// Reason why `at` is unknown; `None` if it is known.
     pub reason: Option<Undefined>,
 }

@@ -1,4 +1,4 @@
-//! Growth of an error over the life of a gel, and the presses or date at which a limit is met.
+//! Growth of an error over the life of a gel, and the number of presses or days at which it reaches a limit.
 
 use taceva_metrics::distributions::student_t;
 use taceva_metrics::elementary::logarithm;
@@ -9,18 +9,18 @@ use crate::wear::report::LimitMet;
 
 /// Share of Student's t distribution below the upper end of a 95 % interval.
 const UPPER: f64 = 0.975;
-/// Coverage of a two-sided interval whose lower end is one-sided at 95 %.
+/// Coverage of the two-sided interval whose lower end is a one-sided 95 % bound.
 const ONE_SIDED: f64 = 0.90;
 
-/// An error at a place.
+/// Error of a recording, with its age.
 #[derive(Clone, Copy)]
 pub(crate) struct ErrorAt {
-    /// Presses or days, in steps.
+    /// Age in steps, each of 1000 presses or 30 days.
     pub(crate) steps: f64,
     pub(crate) error: f64,
 }
 
-/// Line through the logarithms of the errors of recordings, by least squares. Each recording is one observation, however many samples it has.
+/// Least-squares line through the logarithms of the errors of recordings over their age. Each recording is one observation, of any number of samples.
 pub(crate) struct Trend {
     line: Result<CurveFit, Undefined>,
     /// Error of the last recording; `None` without recordings.
@@ -28,7 +28,7 @@ pub(crate) struct Trend {
 }
 
 impl Trend {
-    /// Trend of `errors`, in the order of their places.
+    /// Fits the trend of `errors`, which are in the order of their age.
     pub(crate) fn of(errors: &[ErrorAt]) -> Trend {
         Trend {
             line: line(errors),
@@ -50,7 +50,7 @@ impl Trend {
         Estimate::new(slope, ends.ok_or(Undefined::NoInterval))
     }
 
-    /// Place at which a recording has the error `limit`, in presses or days of `step`. The interval is Fieller's for one further recording.
+    /// Presses or days at which a recording has the error `limit`. A step has `step` of them. The interval is Fieller's for one further recording.
     pub(crate) fn meets(&self, limit: f64, step: f64) -> LimitMet {
         let found = self.line.as_ref().map_err(|reason| *reason);
         let found = found.and_then(|line| {
@@ -72,7 +72,7 @@ impl Trend {
     }
 }
 
-/// Line through the logarithms of `errors`.
+/// Least-squares line through the logarithms of `errors` over the age.
 fn line(errors: &[ErrorAt]) -> Result<CurveFit, Undefined> {
     if errors.iter().any(|of| of.error <= 0.0) {
         return Err(Undefined::ZeroError);
@@ -90,7 +90,7 @@ fn line(errors: &[ErrorAt]) -> Result<CurveFit, Undefined> {
 mod tests {
     use super::*;
 
-    /// Errors that grow by `slope` in each step, with residuals.
+    /// Errors whose logarithm grows by `slope` in each step, plus `residuals`.
     fn grown(slope: f64, residuals: &[f64]) -> Vec<ErrorAt> {
         let places = (0_u32..).map(f64::from);
         let of = places.zip(residuals).map(|(steps, residual)| ErrorAt {

@@ -1,4 +1,4 @@
-//! Requests that are refused by name, and recordings without what a fault or a score needs.
+//! Tests of requests that are refused, and of recordings that lack data for a fault or a score.
 
 use std::path::Path;
 
@@ -18,7 +18,7 @@ fn by_parameter(faults: &[&str]) -> StressRequest {
     }
 }
 
-/// A recording without an untouched picture, whose only label is `label` of the force. Recordings of different `noise` share no picture.
+/// Creates a recording without an untouched picture. Its only label is `label` of the force. Recordings with different `noise` share no picture.
 fn labelled(path: &Path, channel: Channel, noise: u32, label: fn(f64) -> f64) -> Dataset {
     let sensor = SensorFacts::new("drawn").with_serial("1").with_gel("1");
     let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, sensor);
@@ -36,7 +36,7 @@ fn labelled(path: &Path, channel: Channel, noise: u32, label: fn(f64) -> f64) ->
     Dataset::open(path).expect("a dataset")
 }
 
-/// Words of the refusal, which is a wrong request.
+/// Message of the error of a stress test, which must be an error of usage.
 fn refused(dataset: &Dataset, model: &Model, request: &StressRequest) -> String {
     let error = stress(dataset, model, request, WORK).expect_err("refused");
     assert!(error.is_usage(), "{error}");

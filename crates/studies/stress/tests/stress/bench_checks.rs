@@ -1,4 +1,4 @@
-//! Recordings of the simulated MagicTac with faults: what the checks find, and what a new untouched picture corrects.
+//! Tests with recordings of the simulated MagicTac with faults: findings of the checks, and errors that a new untouched picture removes.
 
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
@@ -15,24 +15,24 @@ use taceva_stress::{FAULTS, Fault, Stress, StressRequest, Undefined, stress};
 use crate::bench_monitor::taken;
 use crate::drawing::{WORK, fitted};
 
-/// Points of the recording, each pressed to five depths.
+/// Number of contact points of the recording. Each is pressed to five depths.
 const POINTS: u32 = 16;
 
-/// A press: its picture, and its labels.
+/// Press, with its picture and its labels.
 struct Pressed {
     frame: Frame,
     labels: [f64; 2],
     point: u32,
 }
 
-/// Untouched picture and presses of a MagicTac.
+/// Untouched picture and presses of a simulated MagicTac.
 struct Drawn {
     rest: Frame,
     presses: Vec<Pressed>,
 }
 
 impl Drawn {
-    /// Presses at other places for each `turn`.
+    /// Simulates the presses. `turn` rotates their contact points, in radians.
     fn new(turn: f64) -> Drawn {
         let parameters = Model::MagicTac.parameters();
         let spec = OpticsSpec::new(&parameters);
@@ -71,7 +71,7 @@ impl Drawn {
         Drawn { rest, presses }
     }
 
-    /// A recording of the presses with `fault`, whose untouched picture is from before the fault.
+    /// Records the presses with `fault`. The untouched picture is from before the fault.
     fn record(&self, path: &Path, fault: Option<Stress>) -> Dataset {
         let sensor = SensorFacts::new("MagicTac").with_serial("0").with_gel("1");
         let facts = RecordingFacts::new(Source::Simulated, Clock::Unknown, sensor);
@@ -98,7 +98,7 @@ impl Drawn {
     }
 }
 
-/// Codes of the findings in `dataset`, without TAC034. Only that check compares untouched pictures with those from before the fault.
+/// Codes of the findings in `dataset`, without TAC034. TAC034 alone compares untouched pictures with those from before the fault.
 fn found(dataset: &Dataset) -> BTreeSet<&'static str> {
     let codes = ALL.iter().map(|check| check.code.to_owned());
     let request = CheckRequest {

@@ -1,6 +1,6 @@
-//! The monitor of a sensor in use on the simulated bench. `TACEVA_UNTOUCHED=300000 TACEVA_TRIALS=200 cargo test --release -p taceva-stress --test stress
-//! bench_monitor:: -- --nocapture` watches as many pictures of all four sensors, and tries each fault as often. Otherwise few
-//! pictures of one sensor are watched.
+//! Tests of the monitor with sensors of the simulated bench. `TACEVA_UNTOUCHED=300000 TACEVA_TRIALS=200 cargo test --release -p taceva-stress --test
+//! stress bench_monitor:: -- --nocapture` watches as many pictures of all four sensors, and tries each fault as often. Otherwise few pictures of one
+//! sensor are watched.
 
 use taceva_core::{Frame, FrameMut};
 use taceva_sim::Model;
@@ -10,14 +10,14 @@ use taceva_stress::{FAULTS, Fault, Monitor, Scope, Stress};
 
 /// Longer and shorter side of the pictures.
 const SIDES: [u32; 2] = [96, 72];
-/// Untouched pictures until changes are found.
+/// Number of untouched pictures that the monitor needs before it can find changes.
 const LEARNT: u32 = 250;
-/// Pictures within which a fault is found.
+/// Number of pictures within which the monitor must find a fault.
 const WITHIN: u32 = 30;
-/// Stimulus of the faults.
+/// Stimulus of the tested faults: change of the picture, divided by the change by contact.
 const STIMULUS: f64 = 0.3;
 
-/// All sensors if the environment variable `name` is set, otherwise one, so that all tests stay short.
+/// All sensors if the environment variable `name` is set, otherwise one sensor, so that the tests stay short.
 fn sensors(name: &str) -> Vec<Model> {
     match std::env::var_os(name) {
         Some(_) => Model::ALL.to_vec(),
@@ -25,14 +25,14 @@ fn sensors(name: &str) -> Vec<Model> {
     }
 }
 
-/// The number in the environment variable `name`.
+/// Number in the environment variable `name`, or `otherwise` if it is not set.
 fn wanted(name: &str, otherwise: u32) -> u32 {
     std::env::var(name)
         .ok()
         .map_or(otherwise, |text| text.parse().expect("a number"))
 }
 
-/// A sensor of the bench, with its monitor.
+/// Sensor of the bench, with its monitor.
 struct Watched {
     model: Model,
     camera: Camera,
@@ -43,7 +43,7 @@ struct Watched {
 }
 
 impl Watched {
-    /// The sensor, after its monitor has learnt.
+    /// Creates the sensor, whose monitor has already set its limits.
     fn new(model: Model) -> Watched {
         let parameters = model.parameters();
         let spec = OpticsSpec::new(&parameters);
@@ -99,7 +99,7 @@ impl Watched {
         }
     }
 
-    /// Parameter of `fault` at which it changes the clean picture by the stimulus; `None` if it cannot.
+    /// Parameter at which `fault` changes the clean picture by [`STIMULUS`]; `None` if it cannot.
     fn parameter(&self, fault: &'static Fault, seed: u64) -> Option<f64> {
         let stimulus = |parameter: f64| {
             let stress = Stress::new(fault, parameter, seed);
@@ -128,7 +128,7 @@ impl Watched {
         Some(high)
     }
 
-    /// True if the monitor finds the fault in time.
+    /// True if the monitor finds the fault within [`WITHIN`] pictures.
     fn is_found(&mut self, fault: &'static Fault, parameter: f64, trial: u32) -> bool {
         let stress = Stress::new(fault, parameter, u64::from(trial));
         let mut monitor = self.monitor.clone();
@@ -147,7 +147,7 @@ impl Watched {
     }
 }
 
-/// The picture of `view`.
+/// Takes a picture of `view`.
 pub(crate) fn taken(camera: &mut Camera, view: &View) -> Frame {
     let info = camera.frame_info();
     let mut bytes = vec![0; info.byte_len().expect("a small frame")];
@@ -164,7 +164,7 @@ fn untouched(camera: &mut Camera, picture: u32) -> Frame {
     taken(camera, &view)
 }
 
-/// Mean absolute difference, a share of full scale.
+/// Mean absolute difference over all pixel values, a fraction of full scale.
 fn difference(one: &Frame, other: &Frame) -> f64 {
     let pairs = one.samples().zip(other.samples());
     let sum: u64 = pairs

@@ -1,4 +1,4 @@
-//! Drawn recordings of presses, and models fitted on them.
+//! Recordings of synthetic presses, and models that are fitted to them.
 
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -12,7 +12,7 @@ use taceva_models::{Model, ModelSettings, Models};
 
 pub(crate) const WIDTH: u32 = 24;
 pub(crate) const HEIGHT: u32 = 16;
-/// Presses of a recording: twelve points, five forces each.
+/// Number of presses of a recording: twelve contact points with five forces each.
 pub(crate) const PRESSES: u32 = 60;
 
 pub(crate) const WORK: Work<'static> = Work {
@@ -21,7 +21,7 @@ pub(crate) const WORK: Work<'static> = Work {
     cache: None,
 };
 
-/// A picture of `format` whose numbers are `light` of full scale at each place.
+/// Draws a picture of `format`. `light` gives the value of each pixel, as a fraction of full scale, from its column and row.
 pub(crate) fn picture(
     [width, height]: [u32; 2],
     format: PixelFormat,
@@ -45,7 +45,7 @@ pub(crate) fn picture(
     Frame::new(info, bytes).expect("whole")
 }
 
-/// A press of `force` at the column `place`, with pixel noise by `number`.
+/// Draws the picture of a press of `force` at the column `place`. `number` selects the pixel noise.
 pub(crate) fn press(force: f64, place: f64, number: u32) -> Frame {
     picture([WIDTH, HEIGHT], PixelFormat::Gray8, |x, y| {
         let (across, down) = (f64::from(x) - place, f64::from(y) - 8.0);
@@ -55,7 +55,7 @@ pub(crate) fn press(force: f64, place: f64, number: u32) -> Frame {
     })
 }
 
-/// A recording at `path`; recordings of different `noise` share no picture.
+/// Creates a recording at `path`. Recordings with different `noise` share no picture.
 pub(crate) fn record(path: &Path, noise: u32) -> Dataset {
     record_with(
         path,
@@ -72,7 +72,7 @@ pub(crate) struct Age {
     pub(crate) recorded_on: Option<Date>,
 }
 
-/// A recording of the pictures that `draw` makes of a force, a place and a number.
+/// Creates a recording. `draw` makes each picture from a force, a position and a number.
 pub(crate) fn record_with(
     path: &Path,
     reference: Option<Frame>,
@@ -87,7 +87,7 @@ pub(crate) fn record_with(
     record_aged(path, &age, reference, draw)
 }
 
-/// The same of this age.
+/// Creates a recording as [`record_with`] does, with the unit, the gel and the age `age`.
 pub(crate) fn record_aged(
     path: &Path,
     age: &Age,
@@ -119,7 +119,7 @@ pub(crate) fn record_aged(
     Dataset::open(path).expect("a dataset")
 }
 
-/// A model fitted on `dataset`.
+/// Fits the model `model` to `dataset`.
 pub(crate) fn fitted(dataset: &Dataset, model: &str, settings: &[&str]) -> Model {
     let request = FitRequest {
         model: Models::builtin().find(model).expect("a model"),
@@ -131,7 +131,7 @@ pub(crate) fn fitted(dataset: &Dataset, model: &str, settings: &[&str]) -> Model
     fit(dataset, &request, None, WORK).expect("fitted").model
 }
 
-/// A recording that a model has not seen, and a model that reads differences from the untouched picture.
+/// Recording that the returned model has not seen. The model reads differences from the untouched picture.
 pub(crate) fn unseen(folder: &Path) -> (Dataset, Model) {
     let seen = record(&folder.join("seen"), 1);
     let model = fitted(&seen, "ridge", &["size=8x8", "difference=true"]);

@@ -1,4 +1,4 @@
-//! Faults of pictures that plugins make.
+//! Tests of faults of pictures that plugins make.
 
 use taceva_core::{Frame, FrameInfo, PixelFormat};
 use taceva_dataset::Dataset;
@@ -10,17 +10,17 @@ use taceva_stress::{
 
 use crate::drawing::{WORK, fitted, picture, record_with, unseen};
 
-/// Answer of a fault to each picture.
+/// Result that a test fault returns for each picture.
 enum Answer {
-    /// The picture, with each number less by ten times the severity.
+    /// Picture whose pixel values are reduced by ten times the severity.
     Darker,
-    /// The picture.
+    /// Unchanged picture.
     Same,
-    /// A picture of one colour.
+    /// Picture of one colour.
     Flat(u8),
-    /// A picture of one pixel.
+    /// Picture of one pixel.
     Small,
-    /// No picture.
+    /// Error instead of a picture.
     Failure,
 }
 
@@ -150,7 +150,7 @@ fn a_fault_that_fails_is_named_and_the_others_go_on() {
     assert_eq!(report.failed[1].reason, "NaN at sample 3");
 }
 
-/// A gel with 24 bright markers, which a force shifts to the right, with noise by `number`.
+/// Picture of a gel with 24 bright markers, which `force` shifts to the right. `number` selects the noise.
 fn marked(force: f64, number: u32) -> Frame {
     let is_dot = |at: f64, dots: f64| {
         let cell = (at / 16.0).floor();

@@ -1,4 +1,4 @@
-//! Digests of the sixty cells: every fault with the five parameters of its table. A changed digest is another fault, so its list needs a new version.
+//! Tests of the digests of twelve faults, each with the five parameters of its table. If a digest changes, the list of faults needs a new version.
 
 use std::process::Command;
 
@@ -8,7 +8,7 @@ use taceva_stress::{FAULTS, Fault, Stress};
 
 use crate::drawing::{picture, press};
 
-/// First sixteen digits of the digest of each fault, over its five parameters in gray and in colour. The test prints the rows if they differ.
+/// First sixteen digits of the digest of each fault, over its five parameters in gray and in colour. A failing test prints the new rows.
 const GOLDEN: [(&str, &str); 12] = [
     ("defocus", "16ece641ee79781a"),
     ("dead_pixels", "87b84580c6aa6c8a"),
@@ -24,14 +24,14 @@ const GOLDEN: [(&str, &str); 12] = [
     ("stale_frames", "5303e7c267a48cc1"),
 ];
 
-/// A coloured picture of 16 bits, and the one before it.
+/// Synthetic RGB picture of 16 bits, which depends on `number`.
 fn coloured(number: u32) -> Frame {
     picture([20, 14], PixelFormat::Rgb16, |x, y| {
         f64::from((x * 37 + y * 101 + number * 53) % 97) / 97.0
     })
 }
 
-/// First sixteen digits of the digest of `fault`, over its five parameters.
+/// First sixteen digits of the digest of pictures with `fault`, over its five parameters.
 fn digits(fault: &'static Fault) -> String {
     let pairs = [
         [press(1.0, 9.0, 3), press(0.5, 4.0, 2)],
@@ -52,7 +52,7 @@ fn digits(fault: &'static Fault) -> String {
     digits[..16].to_owned()
 }
 
-/// Name of the next test.
+/// Name of the test that other processes run.
 const SIXTY: &str = "golden::digests_of_the_sixty_cells_are_the_golden_ones";
 
 #[test]
@@ -68,7 +68,7 @@ fn digests_of_the_sixty_cells_are_the_golden_ones() {
     );
 }
 
-/// A process selects its instruction set once, so each set has a process of its own.
+/// Starts one process for each instruction set, because a process selects its set only once.
 #[test]
 fn digests_of_the_sixty_cells_are_the_golden_ones_by_every_instruction_set_of_the_machine() {
     let program = std::env::current_exe().expect("this program");

@@ -1,4 +1,4 @@
-//! Loss of LEDs whose sides are known.
+//! Tests of a loss of LEDs whose sides are known.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use taceva_stress::{FAULTS, Stress, StressReport, StressRequest, stress};
 
 use crate::drawing::{HEIGHT, PRESSES, WIDTH, WORK, fitted, picture};
 
-/// Half of the light at the edge of the lost LEDs is lost.
+/// Fault that removes half of the light at the edge of the lost LEDs.
 fn led_loss() -> Stress<'static> {
     let mut faults = FAULTS.into_iter();
     let fault = faults.find(|fault| fault.id == "led_loss");
@@ -75,7 +75,7 @@ fn all_colours_of_unknown_leds_and_gray_pictures_dim_from_the_left() {
     }
 }
 
-/// A recording in pictures of `format` by a sensor with these LEDs; recordings of different `noise` share no picture.
+/// Creates a recording of pictures of `format` by a sensor with `leds`. Recordings with different `noise` share no picture.
 fn record(path: &Path, format: PixelFormat, leds: Leds, noise: u32) -> Dataset {
     let draw = |force: f64, number: u32| {
         picture([WIDTH, HEIGHT], format, |x, y| {
@@ -104,7 +104,7 @@ fn record(path: &Path, format: PixelFormat, leds: Leds, noise: u32) -> Dataset {
     Dataset::open(path).expect("a dataset")
 }
 
-/// Errors with lost LEDs and lost light in pictures of `format`.
+/// Stress test with lost LEDs and with a shorter exposure, in pictures of `format`.
 fn tested(format: PixelFormat, leds: Leds) -> StressReport {
     let folder = tempfile::tempdir().expect("a folder");
     let seen = record(&folder.path().join("seen"), format, Leds::default(), 1);

@@ -1,4 +1,4 @@
-//! Findings of checks in pictures with a fault.
+//! Tests that the checks of a recording find faults in pictures.
 
 use taceva_core::PixelFormat;
 use taceva_stress::{By, SeverityReport, StressReport, StressRequest, stress};
@@ -13,7 +13,7 @@ fn by_parameter(faults: &[&str]) -> StressRequest {
     }
 }
 
-/// The fault at position `fault`, at its last severity.
+/// Result of the fault with the index `fault` at its last severity.
 fn last(report: &StressReport, fault: usize) -> &SeverityReport {
     report.faults[fault].severities.last().expect("tested")
 }

@@ -1,4 +1,4 @@
-//! Faults of pictures, their severities, and the scores of models with them.
+//! Tests of faults of pictures, their severities, and the scores of models on pictures with faults.
 
 mod bad_input;
 mod bench_checks;

@@ -1,4 +1,4 @@
-//! Memory of a stress test beside that of an evaluation. Each runs in a process of its own, whose peak is its own.
+//! Tests of the memory of a stress test, compared with that of an evaluation. Each runs in a separate process, which has its own peak.
 
 use std::fs;
 use std::path::Path;
@@ -12,10 +12,10 @@ use taceva_stress::{By, StressRequest, stress};
 
 use crate::drawing::{WORK, fitted, picture, record_with};
 
-/// Most memory beyond that of an evaluation, kB.
+/// Maximum additional memory of a stress test, compared with an evaluation, kB.
 const MOST_KB: u64 = 64_000;
 
-/// A press in a picture of the size of default studies, with noise by `number`.
+/// Draws a press in a picture of 160 × 120 pixels, the default size of studies. `number` selects the noise.
 fn press(force: f64, place: f64, number: u32) -> Frame {
     picture([160, 120], PixelFormat::Gray8, |x, y| {
         let (across, down) = (f64::from(x) - 6.0 * place, f64::from(y) - 60.0);
@@ -25,7 +25,7 @@ fn press(force: f64, place: f64, number: u32) -> Frame {
     })
 }
 
-/// A recording that a model has not seen, and the model.
+/// Recording that the returned model has not seen, and the model.
 fn unseen(folder: &Path) -> (Dataset, Model) {
     let record = |name: &str, noise: u32| {
         let rest = press(0.0, 0.0, 900 + noise);
@@ -38,7 +38,7 @@ fn unseen(folder: &Path) -> (Dataset, Model) {
     (record("unseen", 2), model)
 }
 
-/// Greatest memory of this process so far, as Linux states it.
+/// Line of `/proc/self/status` with the peak memory of this process.
 fn peak() -> String {
     let status = fs::read_to_string("/proc/self/status").expect("a status");
     let mut lines = status.lines();

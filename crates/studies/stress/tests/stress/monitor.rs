@@ -1,4 +1,4 @@
-//! The monitor of a sensor in use: changes of untouched pictures, and pictures of contact unlike the training pictures.
+//! Tests of the monitor of a sensor in use: changes of untouched pictures, and pictures of contact unlike the training pictures.
 
 use std::path::Path;
 
@@ -9,12 +9,12 @@ use taceva_stress::{Alarm, Change, Monitor, watch};
 
 use crate::drawing::{HEIGHT, WIDTH, WORK, fitted, picture, press, record, record_with};
 
-/// Change of pictures by contact in these tests, a share of full scale.
+/// Change of pictures by contact in these tests, a fraction of full scale.
 const CONTACT: f64 = 0.05;
-/// Untouched pictures until changes are found.
+/// Number of untouched pictures that the monitor needs before it can find changes.
 const LEARNT: u64 = 250;
 
-/// An untouched picture with this light, and the noise of `number`.
+/// Untouched picture with the brightness `light`. `number` selects the noise.
 fn rest(light: f64, number: u64) -> Frame {
     let draws = Draws::new(number);
     picture([WIDTH, HEIGHT], PixelFormat::Gray8, |x, y| {
@@ -23,7 +23,7 @@ fn rest(light: f64, number: u64) -> Frame {
     })
 }
 
-/// A monitor that has learnt.
+/// Monitor that has set its limits from untouched pictures.
 fn learnt() -> Monitor {
     let mut monitor = Monitor::new(rest(0.3, 9999), CONTACT).expect("a monitor");
     for number in 0..LEARNT {
@@ -39,12 +39,12 @@ fn passes(monitor: &mut Monitor, frame: &Frame) -> Vec<Alarm> {
     monitor.untouched(frame).expect("of the same kind")
 }
 
-/// Presses, then untouched pictures of this light.
+/// Records presses, then `count` untouched pictures with the brightness `light`.
 fn record_rest(path: &Path, light: f64, count: u64, first: u64) -> Dataset {
     record_rests(path, count, |number| rest(light, first + number))
 }
 
-/// Presses, then `count` untouched pictures.
+/// Records presses, then `count` untouched pictures.
 fn record_rests(path: &Path, count: u64, untouched: impl Fn(u64) -> Frame) -> Dataset {
     let sensor = SensorFacts::new("drawn").with_serial("1").with_gel("1");
     let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, sensor);

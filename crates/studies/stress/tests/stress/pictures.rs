@@ -1,4 +1,4 @@
-//! Pictures with faults as functions of picture, parameter, seed and sample.
+//! Tests that a picture with a fault depends only on picture, parameter, seed and sample.
 
 use taceva_core::{Frame, FrameInfo, PixelFormat};
 use taceva_dataset::Digest;
@@ -6,13 +6,13 @@ use taceva_stress::{FAULTS, Fault, Scope, Stress};
 
 use crate::drawing::{picture, press};
 
-/// The fault called `id`.
+/// Fault with the name `id`.
 fn fault(id: &str) -> &'static Fault {
     let mut faults = FAULTS.into_iter();
     faults.find(|fault| fault.id == id).expect("in the list")
 }
 
-/// A row of gray pixels.
+/// Picture of one row of gray pixels.
 fn gray(bytes: Vec<u8>) -> Frame {
     let width = u32::try_from(bytes.len()).expect("short");
     let info = FrameInfo {

@@ -1,4 +1,4 @@
-//! Faults of camera files, markers, clocks and labels.
+//! Tests of faults of camera files, markers, clocks and labels.
 
 use std::path::Path;
 use std::process::Command;
@@ -17,13 +17,13 @@ use taceva_stress::{
 
 use crate::drawing::{PRESSES, WORK, fitted, picture, press, record_with, unseen};
 
-/// The fault called `id`.
+/// Fault with the name `id`.
 fn fault(id: &str) -> &'static Fault {
     let mut faults = RECORDING_FAULTS.into_iter();
     faults.find(|fault| fault.id == id).expect("in the list")
 }
 
-/// Twenty-four bright dots on a black gel, moved to the right.
+/// Picture of 24 bright dots on a black gel, moved to the right by `right` pixels.
 fn dots(right: usize) -> Frame {
     let info = FrameInfo {
         width: 128,
@@ -40,7 +40,7 @@ fn dots(right: usize) -> Frame {
     Frame::new(info, (0..128 * 96).map(pixel).collect()).expect("whole")
 }
 
-/// Number of bright pixels.
+/// Number of bright pixels in `frame`.
 fn lit(frame: &Frame) -> usize {
     frame.bytes().iter().filter(|byte| **byte > 127).count()
 }
@@ -58,7 +58,7 @@ fn of<'r>(report: &'r StressReport, id: &str) -> &'r FaultReport {
     faults.find(|fault| fault.id == id).expect("tested")
 }
 
-/// A recording of presses, with a picture each 10 ms.
+/// Creates a recording of presses with a picture every 10 ms.
 fn timed(path: &Path) -> Dataset {
     let sensor = SensorFacts::new("drawn").with_serial("1").with_gel("1");
     let facts = RecordingFacts::new(Source::Synthetic, Clock::Monotonic, sensor);
@@ -327,7 +327,7 @@ fn noise_of_labels_of_force_grows_the_error_of_force_alone_and_has_no_stimulus()
     assert_eq!(text(&report), text(&again));
 }
 
-/// Name of the next test.
+/// Name of the test that other processes run.
 const PRINTED: &str = "recording_faults::bytes_of_recording_faults_are_printed_as_a_digest";
 
 #[test]
@@ -349,7 +349,7 @@ fn bytes_of_recording_faults_are_printed_as_a_digest() {
     println!("digest: {}", Digest::of(&bytes));
 }
 
-/// A process selects its instruction set once, so each set has a process of its own.
+/// Starts one process for each instruction set, because a process selects its set only once.
 #[test]
 fn recording_faults_have_the_same_bytes_by_every_instruction_set_of_the_machine() {
     let program = std::env::current_exe().expect("this program");

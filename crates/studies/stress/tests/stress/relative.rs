@@ -1,4 +1,4 @@
-//! Errors that faults add, relative to those of a reference model.
+//! Tests of the errors that faults add, relative to those of a reference model.
 
 use taceva_dataset::Dataset;
 use taceva_evaluate::DataPart;
@@ -18,7 +18,7 @@ fn request(severities: &[u8]) -> StressRequest {
     }
 }
 
-/// Errors of `model`, relative to those of `reference`.
+/// Stress test of `model`, with its added errors relative to those of `reference`.
 fn relative(dataset: &Dataset, model: &Model, reference: &Model) -> StressReport {
     let request = request(&[3, 4, 5]);
     let mut report = stress(dataset, model, &request, WORK).expect("tested");

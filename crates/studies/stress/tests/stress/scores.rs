@@ -1,4 +1,4 @@
-//! Errors of models with faults.
+//! Tests of the scores of models on recordings with faults.
 
 use std::num::NonZeroUsize;
 

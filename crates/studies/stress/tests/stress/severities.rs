@@ -1,4 +1,4 @@
-//! Severities by stimulus and by parameter.
+//! Tests of severities that are set by stimulus or by parameter.
 
 use taceva_stress::{
     By, FAULTS, RECORDING_FAULTS, StressRequest, TARGETS, TAXEL_FAULTS, TIME_FAULTS, severities,
@@ -89,7 +89,7 @@ fn severities_by_parameter_are_those_of_the_table() {
     assert!(report.list.name.starts_with("defocus,dead_pixels,"));
 }
 
-/// Cells of the rows of the tables in `docs/faults.md` whose first cell is `name`, each without that one.
+/// Table rows in `docs/faults.md` whose first cell is `name`. Each row is returned without this cell.
 fn rows_of_page(name: &str) -> Vec<Vec<&'static str>> {
     let page: &'static str = include_str!("../../../../../docs/faults.md");
     let rows = page.lines().filter_map(|line| {
@@ -100,7 +100,7 @@ fn rows_of_page(name: &str) -> Vec<Vec<&'static str>> {
     own.map(|cells| cells[1..].to_vec()).collect()
 }
 
-/// A number, or the ratio of two.
+/// Parses a number or a ratio of two numbers, such as `40/255`.
 fn number(text: &str) -> Option<f64> {
     match text.split_once('/') {
         Some((part, whole)) => Some(part.parse::<f64>().ok()? / whole.parse::<f64>().ok()?),

@@ -1,4 +1,4 @@
-//! Severities one by one, until no skill is left.
+//! Tests that a stress test stops at the first severity at which no channel has skill.
 
 use taceva_stress::{By, SeverityReport, StressRequest, stress};
 

@@ -1,4 +1,4 @@
-//! Drawn recordings of taxels.
+//! Synthetic recordings of taxels.
 
 use std::path::Path;
 
@@ -13,18 +13,18 @@ use taceva_stress::{Fault, TAXEL_FAULTS, TIME_FAULTS};
 
 use crate::drawing::{PRESSES, fitted};
 
-/// Untouched rows at the beginning.
+/// Number of rows without contact at the beginning of a recording.
 const REST: u32 = 10;
-/// Rows of taxels, taxels in a row and numbers of a taxel.
+/// Number of rows of taxels, of taxels in a row, and of channels of a taxel.
 const GRID: [u32; 3] = [4, 5, 2];
 
-/// The fault called `id`.
+/// Fault with the name `id`.
 pub(crate) fn fault(id: &str) -> &'static Fault {
     let mut faults = TAXEL_FAULTS.into_iter().chain(TIME_FAULTS);
     faults.find(|fault| fault.id == id).expect("in the list")
 }
 
-/// Signals of all taxels, each number made from its position.
+/// Signals of all taxels. `number` gives each value from its index.
 pub(crate) fn signals(number: impl Fn(u32) -> f32) -> Signals {
     let [rows, columns, channels] = GRID;
     let info = SignalInfo::new(rows, columns, channels, Unit::Microtesla).expect("a grid");
@@ -32,7 +32,7 @@ pub(crate) fn signals(number: impl Fn(u32) -> f32) -> Signals {
     Signals::new(info, numbers.collect()).expect("whole")
 }
 
-/// Signals of a press, in µT: each axis of a taxel has an offset and its own gain.
+/// Signals of a press, in µT. Each axis of a taxel has its own offset and gain.
 pub(crate) fn pressed(force: f64, place: f64, noise: u32) -> Signals {
     let [_, columns, channels] = GRID;
     signals(|position| {
@@ -45,13 +45,13 @@ pub(crate) fn pressed(force: f64, place: f64, noise: u32) -> Signals {
     })
 }
 
-/// Contents of a drawn recording beside its signals and labels.
+/// Options of a synthetic recording.
 pub(crate) struct Drawn {
     /// Time between two rows, s.
     pub(crate) step_s: Option<f64>,
-    /// True if the untouched rows are declared.
+    /// True if the recording declares its rows without contact.
     pub(crate) has_rest: bool,
-    /// True if the force is labelled, and not the place alone.
+    /// True if the recording has labels of the force and of the position, false for the position only.
     pub(crate) has_force: bool,
 }
 
@@ -61,7 +61,7 @@ pub(crate) const WHOLE: Drawn = Drawn {
     has_force: true,
 };
 
-/// A recording of taxels: untouched rows, then twelve points with five forces each.
+/// Creates a recording of taxels: rows without contact, then twelve contact points with five forces each.
 pub(crate) fn record(path: &Path, noise: u32, of: &Drawn) -> Dataset {
     let info = pressed(0.0, 0.0, 0).info();
     let taxels = SignalsSpec::new(info, ["x", "z"]).expect("two names");
@@ -102,7 +102,7 @@ pub(crate) fn record(path: &Path, noise: u32, of: &Drawn) -> Dataset {
     Dataset::open(path).expect("a dataset")
 }
 
-/// A recording that the model has not seen, and a model of signals.
+/// Recording that the returned model has not seen, and a model of signals.
 pub(crate) fn skin(folder: &Path, settings: &[&str]) -> (Dataset, Model) {
     let seen = record(&folder.join("seen"), 1, &WHOLE);
     let model = fitted(&seen, "ridge", settings);

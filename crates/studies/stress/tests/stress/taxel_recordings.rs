@@ -1,4 +1,4 @@
-//! Recordings of taxels with faults.
+//! Tests with recordings of taxels with faults.
 
 use taceva_core::Frame;
 use taceva_stress::{
@@ -157,7 +157,7 @@ fn without_times_or_a_known_change_by_contact_faults_are_skipped_by_name() {
 
 #[test]
 fn a_fault_of_another_input_than_that_of_the_model_is_skipped_by_name() {
-    /// Pictures without a change.
+    /// Fault of a plugin that changes no picture.
     struct Nothing;
     impl PictureFault for Nothing {
         fn name(&self) -> &str {

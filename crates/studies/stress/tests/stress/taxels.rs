@@ -1,4 +1,4 @@
-//! Faults of taxels and of times as functions of values, parameter, seed and sample.
+//! Tests that faults of taxels and times depend only on values, parameter, seed and sample.
 
 use taceva_stress::{FAULTS, RECORDING_FAULTS, Stress, TAXEL_FAULTS, TIME_FAULTS, select};
 

@@ -1,4 +1,4 @@
-//! Errors of a model on recordings of one unit.
+//! Tests of the errors of a model on recordings of one sensor unit.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use taceva_stress::{ByChannel, Undefined, WearBy, WearReport, WearRequest, wear}
 
 use crate::drawing::{Age, HEIGHT, WIDTH, WORK, fitted, picture, press, record, record_aged};
 
-/// A model that reads differences from the untouched picture, fitted on a recording of its own.
+/// Model that reads differences from the untouched picture. It is fitted to a recording of its own.
 fn model(folder: &Path) -> Model {
     let seen = record(&folder.join("seen"), 1);
     fitted(&seen, "ridge", &["size=8x8", "difference=true"])
@@ -19,7 +19,7 @@ fn on(day: u64) -> Option<Date> {
     Some(Date::of_unix_s(86_400 * day))
 }
 
-/// An age with the gel `1`.
+/// Age of the gel `1`: its presses, and the date of the recording.
 fn age(presses: Option<u32>, recorded_on: Option<Date>) -> Age {
     Age {
         serial: "1",
@@ -29,7 +29,7 @@ fn age(presses: Option<u32>, recorded_on: Option<Date>) -> Age {
     }
 }
 
-/// A recording whose light is multiplied by `light`, and whose pictures no other of another `noise` has.
+/// Creates a recording whose pictures are multiplied by `light`. Recordings with different `noise` share no picture.
 fn worn(folder: &Path, name: &str, age: &Age, light: f64, noise: u32) -> Dataset {
     let draw = |force: f64, place: f64, number: u32| {
         let whole = press(force, place, number * 10 + noise);
@@ -44,7 +44,7 @@ fn worn(folder: &Path, name: &str, age: &Age, light: f64, noise: u32) -> Dataset
     record_aged(&folder.join(name), age, Some(rest), draw)
 }
 
-/// Four recordings after 0, 1000, 2000 and 3000 presses, whose light falls, in another order.
+/// Recordings after 0, 1000, 2000 and 3000 presses, not in this order. Their pictures become darker with the number of presses.
 fn falling(folder: &Path) -> Vec<Dataset> {
     [(3_u32, 0.4), (0, 1.0), (2, 0.6), (1, 0.8)]
         .map(|(thousand, light)| {
