@@ -119,7 +119,7 @@ fn table(metric: &str, seeds: &Seeds) -> Table {
     }
     let count = seeds.len();
     table.note(format!(
-        "{} of {} at least as good as published, mean of {count} seeds",
+        "{} of {} means over {count} seeds are at least as good as published",
         good[0], good[1]
     ));
     table
@@ -283,7 +283,7 @@ mod tests {
         ]);
         let tables = tables.expect("two seeds of the same sensors");
         assert!(
-            tables.contains("2 of 4 at least as good as published, mean of 2 seeds"),
+            tables.contains("2 of 4 means over 2 seeds are at least as good as published"),
             "{tables}"
         );
         let row = tables
