@@ -118,7 +118,10 @@ fn the_page_states_the_studies_that_the_example_draws() {
     let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
     let example = include_str!("../../examples/coverage_by_metric.rs");
     for (code, words) in [
-        ("const RUNS: u32 = 1000;", "Each column has 1,000 runs."),
+        (
+            "const RUNS: u32 = 1000;",
+            "Each column has 1,000 simulated studies.",
+        ),
         (
             "const POINTS_OF_TRUTH: u32 = 20_000;",
             "one study of 20,000 locations",
