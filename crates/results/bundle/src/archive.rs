@@ -95,7 +95,7 @@ pub(crate) fn unpack(path: &Path, into: &Path, most: u64) -> Result<(), BundleEr
         }
         Fault::Write(error) => {
             let problem = format!(
-                "cannot be unpacked into {}: {error}; TMPDIR names another folder for it",
+                "cannot be unpacked into {}: {error}; set TMPDIR to another folder",
                 shown(into)
             );
             BundleError::input(path, problem)

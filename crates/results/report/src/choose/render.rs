@@ -157,7 +157,7 @@ impl Choice {
         let errors: Vec<String> = errors.collect();
         if !errors.is_empty() {
             table.note(format!(
-                "Published errors are means over presses up to these depths and forces, and state nothing beyond: {}.",
+                "Published errors are means over presses up to these depths and forces, and do not apply beyond: {}.",
                 errors.join("; ")
             ));
         }
