@@ -29,7 +29,7 @@ pub(super) fn run(args: &RigTeachArgs, context: &Context) -> anyhow::Result<u8> 
         taught.residual_mm
     ));
     context.say(format_args!(
-        "now raise the tip by a centimetre, then run taceva rig check {}; `axes` of [force] are not taught: the gentle touch at the start of rig tap or run checks them and prints the line to write",
+        "now raise the tip by a centimetre, then run taceva rig check {}. `axes` of [force] are not taught: the gentle touch at the start of rig tap or run checks them and prints the line to write",
         shown(&args.rig)
     ));
     Ok(exit::DONE)

@@ -243,7 +243,7 @@ fn results_of_other_studies_and_a_scene_without_a_wanted_width_are_refused() {
     bench.refused(
         "plan two.toml --from r",
         2,
-        "--from r: no result of a study of this scene, but of `small` on unit 0, 1: expected a run of this scene",
+        "--from r: the run has no result of a study of this scene, only of `small` on unit 0, 1; name a run of this scene",
     );
     let unread = bench.run("plan small.toml --from nowhere -q");
     assert_ne!(unread.code, 0);
