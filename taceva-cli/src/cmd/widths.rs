@@ -37,7 +37,7 @@ pub(super) fn print_expected(
         if let (Some(None), Some(reports), Some(_)) = (pilot, &reports, tested(study)) {
             if wanted.iter().any(|wanted| study.plan.scores(wanted)) {
                 context.say(format_args!(
-                    "width: {}: not predicted, because the earlier run has no result of this study on unit {}: it has {}",
+                    "width: {}: not predicted, because the earlier run has no result of this study on unit {}, only of {}",
                     shown(&study.plan.name),
                     shown(study.plan.units.first().map_or("none", String::as_str)),
                     names(reports)

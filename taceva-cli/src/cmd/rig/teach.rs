@@ -23,7 +23,7 @@ pub(super) fn run(args: &RigTeachArgs, context: &Context) -> anyhow::Result<u8> 
     super::write_anew(&args.rig, &text)?;
     let [x, y, z] = taught.origin_mm;
     context.say(format_args!(
-        "{}: origin_mm = [{x:?}, {y:?}, {z:?}], axes = {}; both steps ended within {:.2} mm of an axis",
+        "{}: origin_mm = [{x:?}, {y:?}, {z:?}], axes = {}; both jogs ended within {:.2} mm of an axis",
         shown(&args.rig),
         taught.axes,
         taught.residual_mm

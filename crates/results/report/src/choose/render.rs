@@ -66,7 +66,7 @@ impl Choice {
             let unsure = candidate.steps.iter().filter(|step| step.is_unsure);
             for step in unsure {
                 table.note(format!(
-                    "Met by the value only: `{}` by {}: the interval of its {} crosses the bound.",
+                    "Met by the value only: `{}` by {}, because the interval of its {} crosses the bound.",
                     step.need, candidate.name, step.property
                 ));
             }
