@@ -250,8 +250,7 @@ fn without_samples(names: &[String], studies: &[Study]) -> Option<String> {
     let absent: Vec<&str> = absent.map(|(name, _)| name.as_str()).collect();
     (!absent.is_empty()).then(|| {
         format!(
-            "no samples are kept with {}: compared by the intervals of both, not sample by sample; `score` and `evaluate` keep up to \
-             {MOST_SAMPLES} samples; sums keep none, and files need the table that `save_samples` writes beside them",
+            "no samples are kept with {}: compared by the intervals of both, not sample by sample. `score` and `evaluate` keep up to {MOST_SAMPLES} samples. Sums keep none, and files need the table that `save_samples` writes beside them",
             absent.join(", ")
         )
     })

@@ -76,7 +76,7 @@ def test_weights_functions_and_names_that_are_none_are_refused_with_the_remedy()
     truth, prediction, _ = arrays()
     metrics = taceva.TactileMetrics()
     for call in (lambda: taceva.score(truth, prediction, weights=np.ones(len(truth))), lambda: metrics.update(truth, prediction, sample_weight=[1])):
-        with pytest.raises(TypeError, match="every sample counts once here"):
+        with pytest.raises(TypeError, match="metrics count every sample once"):
             call()
     for wrong in (np.mean, ["mae", np.mean]):
         with pytest.raises(TypeError, match="a function, expected names; taceva.score_function"):

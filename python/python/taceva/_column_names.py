@@ -394,7 +394,7 @@ def _check_agreement(truth: NamedColumns, prediction: NamedColumns, order: npt.N
             by = "order" if paired_by in ("", "the order", None) else repr(paired_by)
             raise ValueError(
                 f"row {at}: {name} is {own[at]!r} in truth and {other[at]!r} in prediction, which were paired by {by}: "
-                "they do not belong together; give both a column `sample` that names their rows"
+                "the rows do not belong together; give both a column `sample` that names their rows"
             )
 
 

@@ -51,11 +51,11 @@ def require_unweighted(fields: Iterable[str]) -> None:
     >>> require_unweighted(["weights"])
     Traceback (most recent call last):
         ...
-    TypeError: weights: every sample counts once here; score each part by itself, or your own function with taceva.score_function
+    TypeError: weights: metrics count every sample once; score each part by itself, or use your own function with taceva.score_function
     """
     for name in fields:
         if name in ("weight", "weights", "sample_weight"):
-            raise TypeError(f"{name}: every sample counts once here; score each part by itself, or your own function with taceva.score_function")
+            raise TypeError(f"{name}: metrics count every sample once; score each part by itself, or use your own function with taceva.score_function")
 
 
 def _numbers(column: Any, name: str) -> Any:

@@ -46,7 +46,7 @@ pub(crate) fn report(args: &Budget) -> anyhow::Result<BudgetReport> {
     let budget = BudgetText::parse(&text).with_context(place)?;
     if !budget.has_source() {
         anyhow::bail!(
-            "{}: no `[[source]]` in it, expected one or more; the comments of a template state why a source is left out",
+            "{}: no `[[source]]`, expected one or more; the comments of a template state why a source is left out",
             place()
         );
     }

@@ -250,7 +250,7 @@ fn righted(spec: &LiveSpec) -> String {
     let lines = axes.into_iter().flat_map(SignedAxes::turned_over);
     let lines: Vec<String> = lines.map(|axes| format!("`axes = {axes}`")).collect();
     format!(
-        "write {}: the line for which a push to the right of the picture raises Fx",
+        "write {}, whichever makes a push to the right of the picture raise Fx",
         lines.join(" or ")
     )
 }
@@ -294,7 +294,7 @@ fn summarise(
     ));
     if state.contacts == 0 && state.least_normal_n < PULLED_N {
         stderr::say(format_args!(
-            "Fz reached {:.2} N and never exceeded 0.1 N: its axis is reversed; under [force] of the rig file {}",
+            "Fz reached {:.2} N and never exceeded 0.1 N: the axis of Fz is reversed. Under [force] of the rig file, {}",
             state.least_normal_n,
             righted(spec)
         ));

@@ -66,7 +66,7 @@ fn text_of(path: &Path) -> anyhow::Result<String> {
     let bytes = fs::read(path).with_context(cannot)?;
     String::from_utf8(bytes).map_err(|_| {
         anyhow::anyhow!(
-            "{}: not text: models cannot be edited, fit again; expected dataset.toml, results or a state",
+            "{}: not text, expected dataset.toml, results or a state; a model cannot be edited: fit the model again",
             path.display()
         )
     })

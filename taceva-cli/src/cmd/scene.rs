@@ -132,7 +132,7 @@ fn late_zero(plan: &Plan) -> Option<String> {
     let contact = &plan.contact;
     (contact.depth_from.value == DepthOrigin::Contact).then(|| {
         format!(
-            "depths and the limit of depth count from the first force above {} N, which can lie a step of {} mm or more below the surface: write depth_from = \"surface\" under [protocol.contact] of the scene",
+            "depths and the limit of depth count from the first force above {} N, which can lie a step of {} mm or more below the surface. Write depth_from = \"surface\" under [protocol.contact] of the scene",
             contact.threshold_n.value, contact.step_mm.value
         )
     })
@@ -146,7 +146,7 @@ fn shifted(plan: &Plan) -> Option<String> {
     let greatest_mm = shears.iter().copied().fold(0.0, f64::max);
     (!shears.is_empty()).then(|| {
         format!(
-            "after a sample straight down, {} {} sideways in contact, by up to {greatest_mm:.2} mm, for a second sample; `shear_mm` of the phase sets this, 0 for none",
+            "after a sample straight down, {} {} sideways in contact, by up to {greatest_mm:.2} mm, for a second sample; `shear_mm` of the phase sets this distance, and 0 omits the motion",
             counted(shears.len(), "press"),
             by_count(shears.len(), "moves", "move")
         )

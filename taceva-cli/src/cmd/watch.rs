@@ -159,8 +159,7 @@ fn undecided(monitor: &Monitor) -> String {
     let few = "not enough untouched pictures to decide";
     match monitor.calibration_pictures() {
         Some(pictures) if pictures < least => format!(
-            "{few} if anything changed since the calibration, which has {pictures}, expected at least {least}: record the untouched sensor for longer, \
-             and name that recording after --calibration"
+            "{few} if anything changed since the calibration. The calibration has {pictures}, expected at least {least}: record the untouched sensor for longer, and name that recording after --calibration"
         ),
         _ => format!("{few}, expected at least 30 beyond those that set the limits"),
     }

@@ -37,7 +37,7 @@ pub(super) fn print_expected(
         if let (Some(None), Some(reports), Some(_)) = (pilot, &reports, tested(study)) {
             if wanted.iter().any(|wanted| study.plan.scores(wanted)) {
                 context.say(format_args!(
-                    "width: {}: not predicted, because the earlier run has no result of this study on unit {}: it has {}",
+                    "width: {}: not predicted, because the earlier run has no result of this study on unit {}, only of {}",
                     shown(&study.plan.name),
                     shown(study.plan.units.first().map_or("none", String::as_str)),
                     names(reports)
@@ -121,7 +121,7 @@ fn partners<'a>(
     let presses = |study: &PlannedStudy| tested(study).is_some();
     if partners.iter().all(Option::is_none) && planned.studies.iter().any(presses) {
         return Err(Usage::error(format!(
-            "--from {}: no result of a study of this scene, but of {}: expected a run of this scene, or of a pilot of it with fewer points",
+            "--from {}: the run has no result of a study of this scene, only of {}; name a run of this scene, or a pilot with fewer points",
             shown(path),
             names(reports)
         )));
@@ -181,7 +181,7 @@ impl Outlook<'_> {
                     "{width} cannot be reached with {points}: an interval needs {LEAST_CLUSTERS}"
                 ),
                 false => format!(
-                    "{width} wanted; `--from RUN` predicts the width from a run of this scene, or of a pilot of it with fewer points"
+                    "{width} wanted; `--from RUN` predicts the width from a run of this scene, or from a pilot with fewer points"
                 ),
             };
         };

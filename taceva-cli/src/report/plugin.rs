@@ -120,7 +120,7 @@ fn line(plugin: &Listed, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "    {}", keys.join(", "))?;
     if !plugin.needs.is_empty() {
         let allowed = match plugin.allowed.as_slice() {
-            [] => "no need is allowed".to_owned(),
+            [] => "none is allowed".to_owned(),
             allowed => format!("allowed: {}", allowed.join(", ")),
         };
         writeln!(out, "    needs {} ({allowed})", plugin.needs.join(", "))?;

@@ -219,7 +219,7 @@ fn verdicts(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> St
         match shown.is_empty() {
             true => shown,
             false => format!(
-                "; it is shown to add {side} error than to the reference model, as a mean over severities: {shown}"
+                "; the fault is shown to add {side} error than to the reference model (mean over severities): {shown}"
             ),
         }
     });

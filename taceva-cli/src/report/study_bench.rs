@@ -81,7 +81,7 @@ pub(crate) fn rows(bench: &StudyBench) -> Table {
     ));
     table.note("mean width: mean of ln(upper end / lower end) over the channels; front: no other row has both less time and a lower mean width.");
     if bench.seeds > 1 {
-        table.note("times and widths: means over the seeds; errors: of the first seed; coverage: share of the seeds whose interval contains the mean error of the other seeds, with its 95 % interval by Wilson.");
+        table.note("times and widths: means over the seeds. Errors: of the first seed. Coverage: share of the seeds whose interval contains the mean error of the other seeds, with its 95 % interval by Wilson.");
     }
     for row in &bench.rows {
         if let Some(why) = &row.failed {

@@ -121,11 +121,11 @@ fn the_same_inputs_give_the_same_bytes_and_an_existing_bundle_stays() {
     bench.refused(
         &format!("{BUNDLE} mine --force"),
         3,
-        "not a bundle, which is not replaced",
+        "not a bundle, but only a bundle is replaced",
     );
     bench.write("mine/bundle.json", "{}");
     let words = format!("{BUNDLE} mine --force");
-    bench.refused(&words, 3, "`notes`, which no bundle writes");
+    bench.refused(&words, 3, "`notes`, which no bundle contains");
     assert_eq!(read("mine/notes"), b"mine");
 }
 

@@ -55,7 +55,7 @@ fn plugins_are_listed_with_what_they_provide_and_how_they_would_run() {
     let trusted = bench.json("plugin list --plugin-dir plugins --trust org.example.b");
     assert_eq!(trusted["plugins"][1]["delivery"], "in-process");
     let out = bench.ok("plugin list --plugin-dir plugins");
-    assert!(out.contains("needs usb (no need is allowed)"), "{out}");
+    assert!(out.contains("needs usb (none is allowed)"), "{out}");
     let columns: Vec<&str> = out
         .lines()
         .next()

@@ -137,6 +137,6 @@ fn a_model_whose_number_was_changed_is_refused() {
     bench.refused(
         "reseal model --reason better",
         3,
-        "models cannot be edited, fit again",
+        "a model cannot be edited: fit the model again",
     );
 }

@@ -219,7 +219,7 @@ fn a_fault_of_a_gel_is_refused_with_the_line_of_a_scene_that_tests_it() {
     bench().refused(
         "stress unseen --model m.taceva --faults tear,temperature",
         2,
-        "fault `temperature`: only the bench knows its gel; write in a scene with a simulated sensor: stress = { faults = [\"temperature\"] }",
+        "fault `temperature`: only the simulated bench has this fault of the gel; write in a scene with a simulated sensor: stress = { faults = [\"temperature\"] }",
     );
 }
 

@@ -185,7 +185,7 @@ fn a_calibration_with_few_untouched_pictures_says_what_it_finds_and_never_that_n
     for words in [
         "few: 20 untouched pictures in the calibration, expected 250",
         "the first 250 watched pictures set the limits for later changes",
-        "not enough untouched pictures to decide if anything changed since the calibration, which has 20, expected at least 100",
+        "not enough untouched pictures to decide if anything changed since the calibration. The calibration has 20, expected at least 100",
     ] {
         assert!(same.err.contains(words), "{words}: {}", same.err);
     }

@@ -95,7 +95,7 @@ pub(crate) fn unpack(path: &Path, into: &Path, most: u64) -> Result<(), BundleEr
         }
         Fault::Write(error) => {
             let problem = format!(
-                "cannot be unpacked into {}: {error}; TMPDIR names another folder for it",
+                "cannot be unpacked into {}: {error}; set TMPDIR to another folder",
                 shown(into)
             );
             BundleError::input(path, problem)
@@ -153,7 +153,7 @@ fn unpack_all(mut archive: Archive<Capped>, into: &Path, most: u64) -> Result<()
             let what = match kind {
                 EntryType::Symlink | EntryType::Link => "a link",
                 EntryType::XHeader | EntryType::XGlobalHeader | EntryType::GNULongName => {
-                    "a name or attributes too long for a header"
+                    "a header extension, such as for a long name"
                 }
                 _ => "a special file",
             };
@@ -175,7 +175,7 @@ fn unpack_all(mut archive: Archive<Capped>, into: &Path, most: u64) -> Result<()
         let created = OpenOptions::new().write(true).create_new(true).open(&path);
         let mut file = match created {
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-                return Err(damaged(own, "it occurs twice, expected once").into());
+                return Err(damaged(own, "the file occurs twice, expected once").into());
             }
             created => created.map_err(BundleError::file(&path))?,
         };

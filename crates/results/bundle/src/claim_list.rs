@@ -26,7 +26,7 @@ pub(crate) fn fault(manifest: &Manifest, reports: &[EvaluationReport]) -> Option
         let files = manifest.studies.get(claim.study);
         if !files.is_some_and(|files| files.names().eq(&claim.from)) {
             return damage(format!(
-                "{} names other files in `from` than its study",
+                "{} does not name the files of its study in `from`",
                 named(claim)
             ));
         }

@@ -248,11 +248,11 @@ pub(crate) fn owners(manifest: &Manifest) -> Option<Damage> {
     } else if let Some(position) = authors.iter().position(|author| !author.is_right()) {
         let number = position + 1;
         format!(
-            "author {number}: expected a printable name of 1 to {MOST_NAME} bytes, and no ORCID or one with a right check digit"
+            "author {number}: expected a printable name of 1 to {MOST_NAME} bytes, and an ORCID, if any, with a valid check digit"
         )
     } else if let Some(position) = repeated(authors) {
         let number = position + 1;
-        format!("author {number}: the ORCID of an earlier author again, expected each author once")
+        format!("author {number} has the ORCID of an earlier author, expected each author once")
     } else if organization.is_some_and(|own| !own.is_right()) {
         format!(
             "organization: expected a printable name of 1 to {MOST_NAME} bytes, and the address of its page"

@@ -126,7 +126,7 @@ fn studies(
     reports: &[EvaluationReport],
 ) -> Result<Vec<StudyInputs>, BundleError> {
     if request.adds_frames && request.withholds_predictions {
-        let problem = "--with frames adds the labels of the recording, but --without predictions leaves labels out; name one of both options";
+        let problem = "--with frames adds the labels of the recording, but --without predictions leaves labels out; give only one of the two options";
         return Err(BundleError::input(path, problem));
     }
     let are_given = !request.states.is_empty() || request.tables.is_some();

@@ -78,17 +78,17 @@ pub fn make(request: &BundleRequest, out: &Path) -> Result<MadeBundle, BundleErr
 /// Rejects a folder with files that do not belong to a bundle.
 fn check_replaceable(out: &Path) -> Result<(), BundleError> {
     let refused = |what: &str| {
-        let problem = format!("{what}, which is not replaced; name another place");
+        let problem = format!("{what}, but only a bundle is replaced; name another path");
         Err(BundleError::input(out, problem))
     };
     if !out.join(MANIFEST).is_file() {
         return refused("a folder that is not a bundle");
     }
     let Ok(source) = Source::open(out, u64::MAX) else {
-        return refused("a folder with links, or with names that no bundle writes");
+        return refused("a folder with links, or with names that no bundle contains");
     };
     match source.files().keys().find(|name| !is_own(name)) {
-        Some(name) => refused(&format!("a folder with `{name}`, which no bundle writes")),
+        Some(name) => refused(&format!("a folder with `{name}`, which no bundle contains")),
         None => Ok(()),
     }
 }

@@ -30,7 +30,7 @@ pub(crate) fn note(inputs: &Inputs, written: &Writer<'_>) -> Option<String> {
     }
     (!files.is_empty()).then(|| {
         format!(
-            "the bundle publishes the name of the operator, {}, in {}: sealed files keep it, so a bundle without the name needs a recording without it (no `name` under [operator] of the rig file, no --operator of `taceva capture`)",
+            "the bundle publishes the name of the operator, {}, in {}, where a seal forbids changes. To omit the name, record again without `name` under [operator] of the rig file and without --operator of `taceva capture`",
             names.join(", "),
             files.join(", ")
         )

@@ -198,7 +198,7 @@ fn of_tables(
     let own = &report.provenance;
     let is_run = own.part.is_none() && own.tables.is_empty();
     let recount: Result<Recount, EvaluateError> = match (&files.tables, &files.samples, states) {
-        (_, _, []) => return Err(Stop::absent("no state with the rules of the scores")),
+        (_, _, []) => return Err(Stop::absent("no state with the settings of the scores")),
         (None, Some(name), states) if is_run => {
             recount_phases(states, &samples(source, name)?, jobs)
         }

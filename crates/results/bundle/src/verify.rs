@@ -206,11 +206,11 @@ pub(crate) fn check(
         checked.fits.extend(stop.map(|stop| named(&stop.reason)));
         checked.remarks.extend(match &again.model {
             Ok(PredictionCheck::Equal { samples }) => Some(format!(
-                "Study {study}: the model gives the predictions of {} again, bit for bit.",
+                "Study {study}: the model reproduces the predictions of {} bit for bit.",
                 counted(*samples, "sample")
             )),
             Ok(PredictionCheck::Near { share, .. }) => Some(format!(
-                "Study {study}: the model gives the predictions again to within {share:.1e} of the range of the labels, on other instruction sets."
+                "Study {study}: the model reproduces the predictions to within {share:.1e} of the range of the labels on other instruction sets."
             )),
             _ => None,
         });

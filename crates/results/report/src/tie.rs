@@ -155,7 +155,7 @@ fn gratings(tied: &[&Rival<'_>], best: f64, channel: &str) -> String {
     )
 }
 
-/// Clause for predictions that always equal the spacing of a training board: `, which is exactly right among 16 learnt boards at least 0.1 mm
+/// Clause for predictions that always equal the spacing of a training board: `, which means the right one of 16 learnt boards at least 0.1 mm
 /// apart`. `None` without predictions, or if a prediction is not a training spacing.
 fn meaning(samples: &Samples, kind: &str, tolerance_mm: f64) -> Option<String> {
     let nanometres = |mm: f64| (mm * NM).round();
@@ -177,7 +177,7 @@ fn meaning(samples: &Samples, kind: &str, tolerance_mm: f64) -> Option<String> {
     let count = known.len();
     Some(match step > nanometres(tolerance_mm) {
         true => format!(
-            ", which is exactly right among {} at least {} mm apart",
+            ", which means the right one of {} at least {} mm apart",
             counted(count, "learnt board"),
             numeral(step / NM)
         ),

@@ -71,9 +71,9 @@ impl fmt::Display for Undefined {
             Undefined::NoPrediction => "no sample is predicted as the class",
             Undefined::NoNegative => "no negative sample",
             Undefined::NotProbabilities => {
-                "the scores are not probabilities: each from 0 to 1, and their sum 1 within 1e-6, so write seven decimals or more"
+                "the scores are not probabilities: expected numbers from 0 to 1 whose sum is 1 within 1e-6; write seven decimals or more"
             },
-            Undefined::InfiniteLoss => "a class of probability 0 is true",
+            Undefined::InfiniteLoss => "a true class has probability 0",
             Undefined::TooManyPlaces => "the first k places contain all classes",
             Undefined::NoThresholds => "the task has no thresholds",
             Undefined::NoPoints => "no points",

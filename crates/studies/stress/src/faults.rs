@@ -127,7 +127,7 @@ pub fn select(names: &[String]) -> Result<Vec<&'static Fault>, EvaluateError> {
     let is_known = |name: &str| name == ALL || known.contains(&name);
     if let Some(gel) = names.iter().find(|name| GEL_FAULTS.contains(name)) {
         return Err(EvaluateError::Request(format!(
-            "fault `{gel}`: only the bench knows its gel; write in a scene with a simulated sensor: stress = {{ faults = [\"{gel}\"] }}"
+            "fault `{gel}`: only the simulated bench has this fault of the gel; write in a scene with a simulated sensor: stress = {{ faults = [\"{gel}\"] }}"
         )));
     }
     if let Some(unknown) = names.iter().find(|name| !is_known(name)) {

@@ -83,18 +83,13 @@ impl SpacingClassifier {
     pub(crate) const fn note(&self) -> &'static str {
         match self {
             SpacingClassifier::Spectrum => {
-                "sr: spacings are predicted from the radial spectrum of each picture minus the mean picture, by linear discriminants; \
-                 lines and dots are fitted separately, on the other two thirds of the presses of every board; each answer is the spacing \
-                 of one of these boards"
+                "sr: spacings are predicted from the radial spectrum of each picture minus the mean picture, by linear discriminants. Lines and dots are fitted separately, on the other two thirds of the presses of every board. Each answer is the spacing of one of these boards"
             }
             SpacingClassifier::Model(_) => {
-                "sr: spacings are predicted from the radial spectrum of each picture minus the mean picture, by multinomial logistic \
-                 regression of linfa; lines and dots are fitted separately, on the other two thirds of the presses of every board; each \
-                 answer is the spacing of one of these boards"
+                "sr: spacings are predicted from the radial spectrum of each picture minus the mean picture, by multinomial logistic regression of linfa. Lines and dots are fitted separately, on the other two thirds of the presses of every board. Each answer is the spacing of one of these boards"
             }
             SpacingClassifier::Network(_) => {
-                "sr: spacings are predicted by a convolutional network; lines and dots are fitted separately, on the other two thirds of \
-                 the presses of every board; each answer is the spacing of one of these boards"
+                "sr: spacings are predicted by a convolutional network. Lines and dots are fitted separately, on the other two thirds of the presses of every board. Each answer is the spacing of one of these boards"
             }
         }
     }

@@ -74,7 +74,7 @@ fn unit(folder: &SweepFolder, one: &Loaded<'_>, limits: &LimitsFile) -> Result<U
             let wrong = |problem: String| SweepError::Kept {
                 path: path.clone(),
                 problem: format!(
-                    "{problem}; remove it and the file of the same name in `results` to run the task again"
+                    "{problem}; remove this file and the file of the same name in `results` to run the task again"
                 ),
             };
             let studies = match &task.labels {

@@ -60,7 +60,7 @@ fn python_project(args: &PluginNew, context: &Context) -> anyhow::Result<u8> {
     let folder = Path::new(args.name.as_str());
     write_folder(folder, "", &files)?;
     context.say(format_args!(
-        "{}: `pip install PATH/TO/dist/taceva-*.whl --editable {}` puts it into an environment with `taceva`, whose wheel `.ci/wheel dist` builds in a clone of TacEva; `taceva plugin check org.example.{} --python ENVIRONMENT/bin/python` checks it",
+        "{}: `pip install PATH/TO/dist/taceva-*.whl --editable {}` installs the plugin into an environment with `taceva`. `.ci/wheel dist` in a clone of TacEva builds the wheel of `taceva`. `taceva plugin check org.example.{} --python ENVIRONMENT/bin/python` checks the plugin",
         shown(folder),
         shown(folder),
         args.name

@@ -23,13 +23,13 @@ pub(super) fn run(args: &RigTeachArgs, context: &Context) -> anyhow::Result<u8> 
     super::write_anew(&args.rig, &text)?;
     let [x, y, z] = taught.origin_mm;
     context.say(format_args!(
-        "{}: origin_mm = [{x:?}, {y:?}, {z:?}], axes = {}; both steps ended within {:.2} mm of an axis",
+        "{}: origin_mm = [{x:?}, {y:?}, {z:?}], axes = {}; both jogs ended within {:.2} mm of an axis",
         shown(&args.rig),
         taught.axes,
         taught.residual_mm
     ));
     context.say(format_args!(
-        "now raise the tip by a centimetre, then run taceva rig check {}; `axes` of [force] are not taught: the gentle touch at the start of rig tap or run checks them and prints the line to write",
+        "now raise the tip by a centimetre, then run taceva rig check {}. `axes` of [force] are not taught: the gentle touch at the start of rig tap or run checks them and prints the line to write",
         shown(&args.rig)
     ));
     Ok(exit::DONE)

@@ -27,7 +27,7 @@ pub(super) fn run(args: &RigCheckArgs, mass_g: f64, context: &Context) -> anyhow
     let rig = shown(&args.rig);
     let Some(text) = &found.text else {
         anyhow::bail!(
-            "{rig}: cannot write `weighing` after the `driver` of [force]; write force as its own table, [force], delete a table [force.weighing], and weigh again"
+            "{rig}: cannot write `weighing` after the `driver` of [force]; give the transducer its own table [force], delete any table [force.weighing], and weigh again"
         );
     };
     super::write_anew(&args.rig, text)?;

@@ -163,7 +163,7 @@ fn a_file_without_a_source_has_no_uncertainty_of_zero() {
     bench.refused(
         "budget budget.toml",
         3,
-        "budget.toml: no `[[source]]` in it, expected one or more",
+        "budget.toml: no `[[source]]`, expected one or more",
     );
 }
 

@@ -105,7 +105,7 @@ fn claims_that_are_left_out_repeated_or_of_other_files_are_damage() {
             let claims = manifest["claims"].as_array_mut().expect("claims");
             claims.push(claims[0].clone());
         }),
-        ("names other files in `from`", |manifest| {
+        ("not name the files of its study in `from`", |manifest| {
             manifest["claims"][0]["from"] = Value::Array(Vec::new());
         }),
         ("it is named twice in `studies`", |manifest| {

@@ -321,12 +321,15 @@ fn a_bundle_says_which_of_its_files_name_the_operator_and_how_to_leave_the_name_
     assert_eq!(named.code, 0, "{}", named.err);
     let said = "the bundle publishes the name of the operator, Lovelace, in ";
     let (_, after) = named.err.split_once(said).expect(&named.err);
-    let (files, remedy) = after.split_once(": sealed files keep it").expect(after);
+    let (files, remedy) = after.split_once(", where a seal forbids").expect(after);
     for file in ["results.json", "dataset.toml"] {
         assert!(files.contains(file), "{files}");
     }
     assert!(!files.contains("CITATION.cff"), "an author: {files}");
-    assert!(remedy.contains("no `name` under [operator]"), "{remedy}");
+    assert!(
+        remedy.contains("without `name` under [operator]"),
+        "{remedy}"
+    );
     for file in files.split(", ") {
         let text = fs::read_to_string(bench.path(&format!("b/{file}"))).expect("a text");
         assert!(text.contains("Lovelace"), "{file}");

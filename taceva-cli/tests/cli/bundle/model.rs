@@ -235,7 +235,7 @@ fn a_run_keeps_its_models_on_request_and_they_predict_its_samples_again() {
     let found = verified(&bench, &words, 0);
     let remarks = found["remarks"].to_string();
     assert!(
-        remarks.contains("Study 0: the model gives the predictions of"),
+        remarks.contains("Study 0: the model reproduces the predictions of"),
         "{remarks}"
     );
     // No claim of this run reads times, but they are those of the recording.

@@ -201,7 +201,7 @@ fn the_results_of_a_run_belong_to_the_studies_of_the_same_name_and_unit_in_any_o
     let said = planned(&bench, "other.toml --from r");
     assert!(said.contains("width: vitactip: mae.Fz: "), "{said}");
     assert!(
-        said.contains("width: magictac: not predicted, because the earlier run has no result of this study on unit 2: it has `vitactip` on unit 0, 1; `magictac` on unit 0, 1"),
+        said.contains("width: magictac: not predicted, because the earlier run has no result of this study on unit 2, only `vitactip` on unit 0, 1; `magictac` on unit 0, 1"),
         "{said}"
     );
 }
@@ -243,7 +243,7 @@ fn results_of_other_studies_and_a_scene_without_a_wanted_width_are_refused() {
     bench.refused(
         "plan two.toml --from r",
         2,
-        "--from r: no result of a study of this scene, but of `small` on unit 0, 1: expected a run of this scene",
+        "--from r: the run has no result of a study of this scene, only of `small` on unit 0, 1; name a run of this scene",
     );
     let unread = bench.run("plan small.toml --from nowhere -q");
     assert_ne!(unread.code, 0);

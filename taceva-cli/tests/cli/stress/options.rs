@@ -53,7 +53,7 @@ fn a_verdict_names_a_shown_difference_from_the_reference_model_and_none_that_is_
     assert_eq!(difference["is_shown"], true, "{difference}");
     let said = bench.ok(&format!("{} -q", beside("weak")));
     assert!(
-        said.contains("it is shown to add more error than to the reference model"),
+        said.contains("the fault is shown to add more error than to the reference model"),
         "{said}"
     );
     assert!(
@@ -62,13 +62,13 @@ fn a_verdict_names_a_shown_difference_from_the_reference_model_and_none_that_is_
     );
 
     let same = bench.ok(&format!("{} -q", beside("m")));
-    assert!(!same.contains("it is shown to add"), "{same}");
+    assert!(!same.contains("the fault is shown to add"), "{same}");
     let constant = bench.ok(&format!("{} -q", beside("constant")));
     assert!(
         constant.contains("not tested: Fz: the reference model has no skill even without a fault"),
         "{constant}"
     );
-    assert!(!constant.contains("it is shown to add"), "{constant}");
+    assert!(!constant.contains("fault is shown to add"), "{constant}");
 }
 
 #[test]

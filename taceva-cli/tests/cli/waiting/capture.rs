@@ -271,7 +271,7 @@ fn presses_on_a_reversed_transducer_print_the_axes_to_write() {
     });
     running.interrupt();
     let ran = running.ended();
-    let lines = format!("write `{right}` or `axes = [\"-x\", \"y\", \"-z\"]`: the line for which");
+    let lines = format!("write `{right}` or `axes = [\"-x\", \"y\", \"-z\"]`, whichever makes");
     assert!(ran.err.contains(&lines), "{}", ran.err);
 }
 

@@ -153,7 +153,7 @@ fn an_archive_that_is_cut_off_breaks_the_rule_of_the_packed_file() {
 
 #[test]
 fn names_that_come_twice_or_differ_in_case_alone_are_refused() {
-    refused(&[plain("a", b"1"), plain("a", b"2")], "it occurs twice");
+    refused(&[plain("a", b"1"), plain("a", b"2")], "file occurs twice");
     refused(
         &[plain("a.json", b"1"), plain("A.json", b"2")],
         "lower case only",

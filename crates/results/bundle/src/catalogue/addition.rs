@@ -67,7 +67,7 @@ pub fn add(request: &AddRequest) -> Result<Addition, CatalogueFolderError> {
     // Locks the catalogue, because concurrent additions would lose each other's rows.
     let turn = Staged::alone(&place).map_err(CatalogueFolderError::file(&place))?;
     let Some(_turn) = turn else {
-        let problem = "another process adds a bundle; run the command again when it has ended";
+        let problem = "another process is adding a bundle; run this command again when that process has ended";
         return Err(CatalogueFolderError::refused(root, problem));
     };
     let texts = changed(root, &submission, request)?;

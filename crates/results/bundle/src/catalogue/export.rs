@@ -75,7 +75,7 @@ pub fn catalogue_form(
     let mut sensors = entries(root)?;
     sensors.retain(Sensor::has_bundles);
     if sensors.is_empty() {
-        let problem = "the catalogue has no number of a bundle; `taceva catalogue add BUNDLE --to DIR` adds numbers";
+        let problem = "the catalogue has no numbers of bundles; `taceva catalogue add BUNDLE --to DIR` adds numbers";
         return Err(CatalogueFolderError::refused(root, problem));
     }
     if form == CatalogueForm::Hub {

@@ -253,7 +253,7 @@ fn row_faults(
     }
     faults.extend(orphans.into_iter().map(|(manifest, (line, count))| {
         let problem = format!(
-            "{manifest} is missing or damaged, and {} of this entry from here on depend on it: restore it, or remove its rows and add the bundle again",
+            "{manifest} is missing or damaged, and {} of this entry from here on depend on the manifest: restore the manifest, or remove its rows and add the bundle again",
             counted(count, "number")
         );
         CatalogueFinding {

@@ -90,7 +90,7 @@ impl Amount {
                 "an amount in {kept} or a unit of the same quantity"
             ))),
             (Wanted::Plain, _) => Err(wrong(
-                "a number in units of the expression: only a `unit` such as mm, N or deg is converted",
+                "a number in the unit of the expression, because only units such as mm, N or deg are converted",
             )),
             (Wanted::Share, _) => Err(wrong("a share of the reading, such as \"1 %\"")),
             (Wanted::Angle, _) => Err(wrong("an angle, such as \"1 deg\"")),

@@ -67,7 +67,7 @@ impl fmt::Display for Standing {
             Standing::Within { row, standard } => {
                 write!(
                     f,
-                    "within the row {row} of limits like {standard}, which is not a class of the standard"
+                    "within row {row} of limits like those of {standard}, which is not a class of the standard"
                 )
             }
             Standing::Beyond {

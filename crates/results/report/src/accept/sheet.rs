@@ -183,7 +183,7 @@ impl Acceptance<'_> {
                 (0, ..) => p.pass { "PASS: every limit is met" (words) "." },
                 (broken, false, _) => p.fail { "FAIL: " (broken) " of " (self.findings.len()) " limits are not met." },
                 (_, true, false) => p.fail { "not accepted: " (self.open_limits()) "." },
-                (broken, true, true) => p.fail { "FAIL: " (broken) " of " (self.findings.len()) " limits have no pass" (words) "." },
+                (broken, true, true) => p.fail { "FAIL: " (broken) " of " (self.findings.len()) " limits are not passed" (words) "." },
             }
         }
     }

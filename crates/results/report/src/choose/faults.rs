@@ -24,7 +24,7 @@ pub(super) fn take_apart(remaining: &mut Vec<&Sensor>, needs: &[Need]) -> Vec<Dr
     remaining.retain(|sensor| match result(sensor) {
         Some(own) if own.basis() != *basis => {
             let reason = format!(
-                "its faults are {}, and ranked sensors have {}: run `taceva stress` with the same --faults, --severity, --by and --draws, with severities that each sensor reaches, and with `leds` in [sensor] of every recording or of none",
+                "its faults are {}, and ranked sensors have {}. Run `taceva stress` with the same --faults, --severity, --by and --draws, and with severities that each sensor reaches. State `leds` in [sensor] of every recording or of none",
                 shown(own),
                 shown(kept)
             );

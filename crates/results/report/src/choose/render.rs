@@ -66,7 +66,7 @@ impl Choice {
             let unsure = candidate.steps.iter().filter(|step| step.is_unsure);
             for step in unsure {
                 table.note(format!(
-                    "Met by the value only: `{}` by {}: the interval of its {} crosses the bound.",
+                    "Met by the value only: `{}` by {}, because the interval of its {} crosses the bound.",
                     step.need, candidate.name, step.property
                 ));
             }
@@ -157,7 +157,7 @@ impl Choice {
         let errors: Vec<String> = errors.collect();
         if !errors.is_empty() {
             table.note(format!(
-                "Published errors are means over presses up to these depths and forces, and state nothing beyond: {}.",
+                "Published errors are means over presses up to these depths and forces, and do not apply beyond: {}.",
                 errors.join("; ")
             ));
         }

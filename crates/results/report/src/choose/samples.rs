@@ -18,7 +18,7 @@ pub(super) fn take_apart(remaining: &mut Vec<&Sensor>, needs: &[Need]) -> Vec<Dr
         None => true,
         Some(samples) => {
             let reason = format!(
-                "its numbers are from the samples {}, those of other sensors from other samples or definitions",
+                "its numbers are from the samples {}; numbers of other sensors are from other samples or definitions",
                 short(samples)
             );
             apart.push(Dropped::new(sensor, reason));

@@ -114,7 +114,7 @@ fn trainings(names: &[String], answers: &[Answer]) -> Option<String> {
     let drawn: Vec<String> = drawn.into_iter().map(str::to_owned).collect();
     (!drawn.is_empty()).then(|| {
         format!(
-            "differences come from one training of {}: another seed changes them, and no interval includes this variation; for scenes, repeat `taceva run` with --seeds 1-3; for recordings, evaluate with --set seed=2 too",
+            "differences come from one training of {}: another seed changes them, and no interval includes this variation. For scenes, repeat `taceva run` with --seeds 1-3. For recordings, evaluate with --set seed=2 too",
             listed(&drawn)
         )
     })

@@ -122,7 +122,7 @@ mod tests {
             ties(&both).remove(0)
         };
         let apart = tied("1,line,0.5,0.5\n2,line,0.4,0.4\n3,line,0.25,0.25\n4,dot,0.3,0.3\n");
-        let expected = "sr line: tie: a and b both predict the spacing of gratings down to 0.25 mm to within 0.05 mm, which is exactly right among 3 learnt boards at least 0.1 mm apart, and no finer tolerance separates them";
+        let expected = "sr line: tie: a and b both predict the spacing of gratings down to 0.25 mm to within 0.05 mm, which means the right one of 3 learnt boards at least 0.1 mm apart, and no finer tolerance separates them";
         assert_eq!(apart, expected);
         let close = tied("1,line,0.5,0.5\n2,line,0.46,0.46\n3,line,0.25,0.25\n");
         assert!(close.contains("to within 0.05 mm, each time as one of 3 learnt boards"));

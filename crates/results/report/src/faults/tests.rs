@@ -98,7 +98,8 @@ fn a_page_names_shown_differences_from_a_reference_model_alone() {
         |result: &Value| fault_page(FaultResult::read(&result.to_string()).expect("a result"));
     beside["faults"][0]["difference"] = json!({"Fz": {"value": -0.2, "is_shown": true}});
     let shown = page(&beside);
-    let words = "; it adds less error of Fz than to the reference model.";
+    let words =
+        "; the fault adds less error to Fz than to the same channels of the reference model.";
     assert!(shown.contains(words), "{shown}");
     beside["faults"][0]["difference"]["Fz"]["is_shown"] = json!(false);
     assert!(!page(&beside).contains("reference model"));

@@ -111,7 +111,7 @@ fn verdicts(fault: &FaultScores, result: &FaultResult) -> String {
         match channels.is_empty() {
             true => String::new(),
             false => format!(
-                "; it adds {side} error of {} than to the reference model",
+                "; the fault adds {side} error to {} than to the same channels of the reference model",
                 listed(&channels)
             ),
         }

@@ -101,7 +101,7 @@ fn light() -> Option<String> {
         .collect();
     let [low, high] = crate::figure::extent(errors)?;
     Some(format!(
-        "Its text says that errors of ViTacTip become about {} times as large in S4, where light is up to {} times as strong; by its own formula, the ratio of light over the ratio of errors, its Table IV says {} to {} times.",
+        "Its text says that errors of ViTacTip become about {} times as large in S4, where light is up to {} times as strong. Its Table IV says {} to {} times by its own formula, the ratio of light over the ratio of errors.",
         fixed(ERROR, 0),
         fixed(LIGHT, 0),
         fixed(low, 0),

@@ -12,7 +12,7 @@ use crate::table::{Cell, NAME_PT, Row, Table, VALUE_SIZE, Words, latex_symbol, s
 use crate::variables::VARIABLES;
 
 /// Sentence on the figures of the TacEva study without numbers.
-pub(super) const UNPRINTED: &str = "The study prints no numbers with its figures 6a, 7a, 7b and 8a to 8c; its table V has the means of figure 7b, and its tables and figures 3c and 4 have the quantities of figure 8.";
+pub(super) const UNPRINTED: &str = "The study prints no numbers with its figures 6a, 7a, 7b and 8a to 8c. Its table V has the means of figure 7b. Its tables and figures 3c and 4 have the quantities of figure 8.";
 
 /// A value of a figure: its name, its score, and the printed digits.
 struct Quantity {

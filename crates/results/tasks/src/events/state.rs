@@ -67,7 +67,9 @@ impl TryFrom<Stored> for EventState {
         } = stored;
         let matched = checked_counts(&clusters)?[MATCHED];
         if delays.len() as u64 != matched || !delays.is_sorted() {
-            return Err(TaskError::damaged("other delays than matched onsets"));
+            return Err(TaskError::damaged(
+                "another number of delays than of matched onsets",
+            ));
         }
         let is_right = |totals: &EventTotals| totals.counts[MATCHED] <= totals.counts[PREDICTED];
         if !clusters.values().all(is_right) {

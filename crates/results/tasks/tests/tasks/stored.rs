@@ -85,6 +85,6 @@ fn a_stored_state_of_events_that_no_samples_give_is_refused() {
     state.push("a", &frames).expect("frames");
     let damaged = |pointer, part| damage(&state, pointer, part);
     assert!(damaged("/rule/debounce", json!(0)).contains("debounce is 0"));
-    assert!(damaged("/delays", json!([0.0, 0.1])).contains("other delays"));
+    assert!(damaged("/delays", json!([0.0, 0.1])).contains("another number of delays"));
     assert!(damaged("/clusters/a/1/2", json!(0)).contains("more matched onsets"));
 }

@@ -61,7 +61,7 @@ fn file_problem(
                 _ => error.to_string(),
             };
             return Some(format!(
-                "[{instrument}.certificate]: `file` is `{}`, expected a file beside the rig file: {}: {why}; copy it there, or correct the key",
+                "[{instrument}.certificate]: `file` is `{}`, expected a file beside the rig file ({}: {why}); copy the file there, or correct the key",
                 shown(name),
                 shown(&path)
             ));

@@ -112,7 +112,7 @@ impl fmt::Display for RigProblem {
                 "the robot came to rest {ended_ms:.0} ms after a halt, expected at most {HALT_MS} ms: lower `speed_mm_s` in contact, or shorten its braking at the controller"
             ),
             RigProblem::Unheld => f.write_str(
-                "the enabling switch was never read as held: hold it when the check asks for it; if you held it, correct `byte` and `mask` of `enable`; nothing moves without the switch",
+                "the enabling switch was never read as held. Hold the switch when the check asks for it. If you held the switch, correct `byte` and `mask` of `enable`. Nothing moves without the switch",
             ),
             RigProblem::NotHalted => f.write_str(
                 "the robot did not stop after a halt: do not use it; check the driver and the controller",

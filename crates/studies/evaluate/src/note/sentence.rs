@@ -142,9 +142,7 @@ impl fmt::Display for Note {
                     .collect();
                 write!(
                     f,
-                    "shares of all predictions outside the bounds of the model (the range of labels, extended by a quarter on each side): \
-                     {}; a score marked `bounded` gives the share among its own samples; robustness uses unclipped predictions, every \
-                     other score uses clipped predictions",
+                    "shares of all predictions outside the bounds of the model (the range of labels, extended by a quarter on each side): {}. A score marked `bounded` gives the share among its own samples. Robustness uses unclipped predictions, every other score uses clipped predictions",
                     shares.join(", ")
                 )
             }
@@ -265,8 +263,7 @@ fn clusters(
     if recordings < least {
         return write!(
             f,
-            "scored on {} of {}; intervals by contact point do not show how scores vary between recordings; intervals by recording need {least} \
-             recordings with scored samples",
+            "scored on {} of {}. Intervals by contact point do not show how scores vary between recordings. Intervals by recording need {least} recordings with scored samples",
             counted(points, "contact point"),
             counted(recordings, "recording")
         );

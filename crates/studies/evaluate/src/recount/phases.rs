@@ -84,7 +84,7 @@ fn excess(samples: &Samples, states: usize) -> Option<String> {
     let rows = samples.rows();
     (rows.saturating_mul(states) > MOST_READ).then(|| {
         format!(
-            "{} and {}: expected a product of at most {MOST_READ}",
+            "{} and {}: expected samples times states of at most {MOST_READ}",
             counted(rows as u64, "sample"),
             counted(states as u64, "state")
         )

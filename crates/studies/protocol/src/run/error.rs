@@ -75,7 +75,7 @@ pub enum StopCause {
     Rig(Box<SceneError>),
     /// The guard responds too late, so that the tip would travel too far beyond a limit.
     #[error(
-        "force readings arrive up to {reaction_ms:.0} ms late on this machine, and the tip travels {overshoot_mm:.3} mm in that time: expected at most {greatest_mm:.3} mm (30 % of the allowed depth); stop other programs, run with `chrt -f 10 taceva run …` if you do not yet, or lower `speed_mm_s` of the scene to {speed_mm_s:.2}"
+        "force readings arrive up to {reaction_ms:.0} ms late on this machine, and the tip travels {overshoot_mm:.3} mm in that time: expected at most {greatest_mm:.3} mm (30 % of the allowed depth). Stop other programs, run with `chrt -f 10 taceva run …` if you do not yet, or lower `speed_mm_s` of the scene to {speed_mm_s:.2}"
     )]
     SlowGuard {
         /// Time from an exceeded limit to the halt, in ms: the 99.9th percentile over the timed readings.

@@ -67,7 +67,7 @@ impl fmt::Display for ZeroStep {
         let axis = self.zero.changed();
         write!(
             f,
-            "during the press the zero of {} changed from {:.4} N to {:.4} N, expected a change of at most {:.4} N (`zero_step_max_N` of [force] in the rig file): let the transducer warm up, check its cable and mounting, and continue with `--resume`",
+            "during the press the zero of {} changed from {:.4} N to {:.4} N, expected a change of at most {:.4} N (`zero_step_max_N` of [force] in the rig file). Let the transducer warm up, check its cable and mounting, and continue with `--resume`",
             COMPONENTS[axis], self.zero.before[axis].0, self.zero.after[axis].0, self.limit_n
         )
     }

@@ -116,7 +116,7 @@ impl fmt::Display for Trip {
             } => {
                 write!(
                     f,
-                    "a force of {force_n:.3} N where no contact is expected; if nothing touches the tip, write a greater `threshold_N` under [protocol.contact] of the scene and start a new run: use above 5 times the noise that `taceva rig check` prints"
+                    "a force of {force_n:.3} N where no contact is expected. If nothing touches the tip, write a greater `threshold_N` under [protocol.contact] of the scene, above 5 times the noise that `taceva rig check` prints, and start a new run"
                 )
             }
             Trip::UnexpectedContact {
@@ -146,12 +146,12 @@ impl fmt::Display for Trip {
             }
             Trip::StaleForce { age_s } => write!(
                 f,
-                "the last force reading is {:.0} ms old; on a busy machine, stop other programs, and run with `chrt -f 10 taceva run …` if you do not yet; a device with its own clock appears late on any machine",
+                "the last force reading is {:.0} ms old. On a busy machine, stop other programs, and run with `chrt -f 10 taceva run …` if you do not yet. A device with its own clock appears late on any machine",
                 age_s * 1e3
             ),
             Trip::StalePose { age_s } => write!(
                 f,
-                "the last pose reading is {:.0} ms old; on a busy machine, stop other programs, and run with `chrt -f 10 taceva run …` if you do not yet; a device with its own clock appears late on any machine",
+                "the last pose reading is {:.0} ms old. On a busy machine, stop other programs, and run with `chrt -f 10 taceva run …` if you do not yet. A device with its own clock appears late on any machine",
                 age_s * 1e3
             ),
             Trip::Released => f.write_str("the enabling switch was released"),

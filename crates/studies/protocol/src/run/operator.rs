@@ -128,7 +128,7 @@ impl fmt::Display for Question {
                 force_u_part,
             }) => write!(
                 f,
-                "the gel surface is {:.3} ± {height_u_mm:.3} mm {} than in the last session, and the gel is {:.1} ± {:.1} % {}: continue this recording if it is the same gel, stop if it was moved or replaced",
+                "the gel surface is {:.3} ± {height_u_mm:.3} mm {} than in the last session, and the gel is {:.1} ± {:.1} % {}. Continue this recording if the gel is the same; stop if the gel was moved or replaced",
                 height_mm.abs(),
                 if *height_mm < 0.0 { "higher" } else { "deeper" },
                 100.0 * force_part.abs(),

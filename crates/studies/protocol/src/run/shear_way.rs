@@ -38,9 +38,7 @@ impl fmt::Display for ShearFault {
         let [force_x, force_y] = self.force_n;
         write!(
             f,
-            "the tip moved by ({way_x:.3}, {way_y:.3}) mm along x and y, and the shear force changed by ({force_x:.3}, {force_y:.3}) N: expected a \
-             change along the motion, not against it, as in the gentle touch; check whether the transducer was turned or its channels swapped, and \
-             begin again: earlier labels of Fx and Fy may be wrong"
+            "the tip moved by ({way_x:.3}, {way_y:.3}) mm along x and y, and the shear force changed by ({force_x:.3}, {force_y:.3}) N. Expected a change along the motion, as in the gentle touch, and not against it. Check whether the transducer was turned or its channels swapped, and begin again. Earlier labels of Fx and Fy may be wrong"
         )
     }
 }

@@ -187,7 +187,7 @@ pub enum SceneProblem {
     },
     /// Devices use different clocks.
     #[error(
-        "`{simulated}` uses simulated time and `{real}` uses the clock of this machine, but a rig has one clock: choose both devices simulated or both real; a real sensor may be used with a simulated robot, and its recording is then `simulated`"
+        "`{simulated}` uses simulated time and `{real}` uses the clock of this machine, but a rig has one clock. Choose both devices simulated or both real. A real sensor may be used with a simulated robot, and its recording is then `simulated`"
     )]
     MixedClocks {
         /// Name of the simulated device.
@@ -197,7 +197,7 @@ pub enum SceneProblem {
     },
     /// A robot moves in its base frame, whose pose relative to the sensor is unknown.
     #[error(
-        "the robot `{robot}` moves in its base frame, whose pose relative to the gel is unknown: write a rig file with `origin_mm` and `axes` under [robot] and name it by `rig = \"lab.toml\"` or --rig (docs/rig.md)"
+        "the robot `{robot}` moves in its base frame, whose pose relative to the gel is unknown. Write a rig file with `origin_mm` and `axes` under [robot] and name it by `rig = \"lab.toml\"` or --rig (docs/rig.md)"
     )]
     Unmapped {
         /// Name of the robot.

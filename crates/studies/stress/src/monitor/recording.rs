@@ -86,8 +86,7 @@ pub fn watch(
     let least = monitor.missing() + WINDOW;
     if untouched < least {
         return refused(format!(
-            "{untouched} untouched pictures with a label, expected at least {least}; record the sensor without contact, or name by --calibration a \
-             recording with {} of them",
+            "{untouched} untouched pictures with a label, expected at least {least}; record the sensor without contact, or name a recording with {} untouched pictures by --calibration",
             Monitor::LEAST_PICTURES
         ));
     }

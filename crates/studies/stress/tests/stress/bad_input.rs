@@ -60,7 +60,10 @@ fn a_misspelt_fault_is_refused_with_the_nearest_name() {
     let said = refused(&dataset, &model, &request("defocsu"));
     assert_eq!(said, "fault `defocsu`: unknown, did you mean `defocus`?");
     let said = refused(&dataset, &model, &request("gel_softening"));
-    assert!(said.contains("only the bench knows its gel"), "{said}");
+    assert!(
+        said.contains("only the simulated bench has this fault of the gel"),
+        "{said}"
+    );
     let said = refused(&dataset, &model, &request("gel_rust"));
     assert!(
         said.contains("expected one of `gel-12`, `defocus`"),

@@ -84,7 +84,7 @@ impl RunFolder {
                         "the folder exists already; use --resume to continue its run, or --force to start again"
                             .to_owned()
                     }
-                    _ => "the folder holds no run; name another".to_owned(),
+                    _ => "the folder holds no run; name another folder".to_owned(),
                 }));
             }
             _ => {}

@@ -62,7 +62,7 @@ impl TaskResult {
             true => Ok(text),
             false => Err(SweepError::Kept {
                 path,
-                problem: "the file has changed since the task wrote it; remove it and the file of the same name in `results` to run the task again".to_owned(),
+                problem: "the file has changed since the task wrote it; remove this file and the file of the same name in `results` to run the task again".to_owned(),
             }),
         }
     }

@@ -56,7 +56,7 @@ impl TaskList {
         let head: Head = serde_json::from_str(&text).map_err(|error| again(error.to_string()))?;
         if head.schema != SCHEMA || head.taceva != env!("CARGO_PKG_VERSION") {
             return Err(again(format!(
-                "{} planned by TacEva {}, but this is {}, which reads {SCHEMA}",
+                "schema {} planned by TacEva {}, expected a list of TacEva {} with schema {SCHEMA}",
                 head.schema,
                 head.taceva,
                 env!("CARGO_PKG_VERSION")

@@ -48,7 +48,7 @@ impl Reader<'_> {
         let lasting = lasting.filter(|from| is_lasting(from) && of.readings.is_some());
         if let Some(from) = lasting {
             return error(format!(
-                "`{from}` is the same in every reading of a place, so it has no `readings`"
+                "`{from}` is the same in every reading of a place: remove `readings`"
             ));
         }
         let is_from = |name: &str| of.from.as_ref().is_some_and(|from| from.get_ref() == name);

@@ -133,7 +133,7 @@ fn a_level_beyond_class_3_says_the_figure_the_end_and_a_multiple() {
     let said = good.figures(100.0).expect("figures").standing().to_string();
     assert_eq!(
         said,
-        "within the row 0.5 of limits like ISO 7500-1, which is not a class of the standard"
+        "within row 0.5 of limits like those of ISO 7500-1, which is not a class of the standard"
     );
 }
 

@@ -52,7 +52,7 @@ fn levels_are_within_the_rows_of_the_golden_classes_and_no_class_is_given() {
     }
     assert_eq!(
         found.standing(0).to_string(),
-        "within the row 1 of limits like ISO 376, which is not a class of the standard"
+        "within row 1 of limits like those of ISO 376, which is not a class of the standard"
     );
 }
 
@@ -113,7 +113,7 @@ fn a_coarse_resolution_excludes_rows() {
     let place = series.figures().expect("figures").standing(0).to_string();
     assert_eq!(
         place,
-        "within the row 2 of limits like ISO 376, which is not a class of the standard"
+        "within row 2 of limits like those of ISO 376, which is not a class of the standard"
     );
     series.resolution = Some(0.01);
     let place = series.figures().expect("figures").standing(0).to_string();

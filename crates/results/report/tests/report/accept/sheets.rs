@@ -173,7 +173,7 @@ fn only_a_fail_is_called_failed_and_open_limits_are_counted() {
         let beyond = ERROR.replace("0.09", most);
         let (caption, page) = words(&limits(GUARDED, &format!("{beyond}{missing}")));
         assert_eq!(caption, "drawn, serial 7: failed by line 3, 2026-11-22");
-        let verdict = format!("FAIL: 2 of 2 limits have no pass ({word}, 1 undecided).");
+        let verdict = format!("FAIL: 2 of 2 limits are not passed ({word}, 1 undecided).");
         assert!(page.contains(&verdict), "{page}");
     }
 }

@@ -97,7 +97,7 @@ impl Listeners<'_> {
         let remedy = plugin_remedy(error)
             .unwrap_or_else(|| "check cable and power of the transducer".to_owned());
         let words = format!(
-            "the force is lost: {error}; the robot stays halted: stop, {remedy}, and continue with `--resume`"
+            "the force is lost: {error}. The robot stays halted. Stop, {remedy}, and continue with `--resume`"
         );
         self.progress.remark(&words);
         if let Some(viewer) = self.viewer {

@@ -73,7 +73,7 @@ impl Misses {
             .stale
             .take_if(|stale| now_s - stale.found_s > SETTLED_S)?;
         let words = format!(
-            "late: the newest reading is {:.0} ms old, although the guard was in time: the device, its link or its driver is late; check cable, network and rate of the device",
+            "late: the newest reading is {:.0} ms old, although the guard was in time. The device, its link or its driver is late: check cable, network and rate of the device",
             stale.age_s * 1e3
         );
         self.count(Cause::Device, words)

@@ -48,13 +48,12 @@ impl<'a> Folds<'a> {
         let tested_by_fold: Vec<Vec<usize>> = made.splits.iter().map(among).collect();
         let left_out = (0..all).filter(|row| tested.binary_search(row).is_err());
         let mut note = format!(
-            "each sample was predicted once, by one of {count} models fitted without its group ({named} groups), whose settings were \
-             chosen on the groups of its fit; the baseline of skill is the mean of the truth, because these models share no constant"
+            "each sample was predicted once, by one of {count} models fitted without its group ({named} groups); the settings of each model were chosen on the groups of its fit; the baseline of skill is the mean of the truth, because these models share no constant"
         );
         let unnamed = rows.len() - tested.len();
         if unnamed > 0 {
             note += &format!(
-                "; {unnamed} of {} {} left out: no group is named for {}; name one in the table, and import it again",
+                "; {unnamed} of {} {} left out: no group is named for {}; name one in the table, and import the table again",
                 counted(rows.len(), "sample"),
                 by_count(unnamed, "is", "are"),
                 by_count(unnamed, "it", "them")

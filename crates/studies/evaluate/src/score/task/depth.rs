@@ -22,7 +22,7 @@ use crate::task_state_file::TaskStates;
 pub(super) fn states(request: &TaskRequest, of: &TaskSpec) -> Result<TaskStates, EvaluateError> {
     if request.tasks.len() > 1 {
         return Err(EvaluateError::Request(format!(
-            "`{}` has depth maps, whose truth is a dataset: score this task without others",
+            "`{}` has depth maps, whose truth is a dataset: score this task alone",
             shown(&of.name)
         )));
     }

@@ -101,8 +101,7 @@ impl Gather<'_> {
             }
             Some((rig, _)) => {
                 let problem = format!(
-                    "the robot `{key}` does not reach ({x}, {y}, {z}) in its base frame, which is ({}, {}, {}) in the frame of the sensor: correct \
-                     `origin_mm`, `axes` or the workspace of the driver; or in the scene {shorter}",
+                    "the robot `{key}` does not reach ({x}, {y}, {z}) in its base frame, which is ({}, {}, {}) in the frame of the sensor. Correct `origin_mm`, `axes` or the workspace of the driver, or in the scene {shorter}",
                     tip.x, tip.y, tip.z
                 );
                 let robot = self.study.robot.as_ref();

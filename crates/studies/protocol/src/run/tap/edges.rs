@@ -68,7 +68,7 @@ pub enum TapError {
     },
     /// The signal of a device still changes long after the tip came to rest.
     #[error(
-        "tap {tap}: the {device} signal still changes after the tip has rested for 0.4 s: the latency is too long for a tap, or the gel creeps; run the command again, lower the buffering of the device, or measure its `latency_ms` in another way and write it into the rig file"
+        "tap {tap}: the {device} signal still changes after the tip has rested for 0.4 s: the latency is too long for a tap, or the gel creeps. Run the command again, lower the buffering of the device, or measure its `latency_ms` in another way and write it into the rig file"
     )]
     Late {
         /// Number of the tap, counted from 1.
@@ -78,7 +78,7 @@ pub enum TapError {
     },
     /// Too many taps are dropped as late, so the remaining taps would show too short a latency.
     #[error(
-        "{late} of {taps} taps were left out as late, expected at most a fifth: the remaining taps show too short a latency; run the command again, lower the buffering of the device, or measure its `latency_ms` in another way and write it into the rig file"
+        "{late} of {taps} taps were left out as late, expected at most a fifth: the remaining taps show too short a latency. Run the command again, lower the buffering of the device, or measure its `latency_ms` in another way and write it into the rig file"
     )]
     MostlyLate {
         /// Number of late taps.
@@ -96,7 +96,7 @@ pub enum TapError {
     },
     /// The latency of a device differs too much between taps.
     #[error(
-        "the latency of the {device} varies by {spread_ms:.1} ms between taps, expected at most half a frame, {allowed_ms:.1} ms: stop other traffic and other programs, run with `chrt -f 10` if you do not yet, and check the rig for vibration"
+        "the latency of the {device} varies by {spread_ms:.1} ms between taps, expected at most half a frame, {allowed_ms:.1} ms. Stop other traffic and other programs, run with `chrt -f 10` if you do not yet, and check the rig for vibration"
     )]
     Spread {
         /// Name of the device: `force` or `sensor`.

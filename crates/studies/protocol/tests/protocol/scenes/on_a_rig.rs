@@ -213,7 +213,7 @@ fn a_place_that_the_arm_does_not_reach_is_refused_in_its_base_frame_with_the_lin
         "{said}"
     );
     assert!(
-        said.contains("correct `origin_mm`, `axes` or the workspace"),
+        said.contains("Correct `origin_mm`, `axes` or the workspace"),
         "{said}"
     );
 }
