@@ -141,7 +141,9 @@ impl<'a, D: ?Sized> Tried<'a, D> {
     pub(crate) fn is_simulated(&self) -> Result<(), Unmet> {
         match self.descriptor.source() {
             DriverSource::Simulated => Ok(()),
-            source => Err(skipped(format!("its readings are {source}"))),
+            source => Err(skipped(format!(
+                "its readings are {source}, but this check needs simulated readings"
+            ))),
         }
     }
 
