@@ -174,7 +174,7 @@ mod tests {
             .expect_err("taken");
         assert_eq!(
             error.to_string(),
-            "two drivers are called `sim/lamp`: the first, and the second"
+            "two drivers have the key `sim/lamp`: the first and the second"
         );
         assert_eq!(registry.len(), 1);
         let kept = registry.get("sim/lamp").expect("there");

@@ -6,7 +6,7 @@ use taceva_core::DriverError;
 pub fn plugin_remedy(error: &DriverError) -> Option<String> {
     let plugin = ended_plugin(error)?;
     Some(format!(
-        "find the fault of the plugin with `taceva plugin check {plugin}`, let it start again with `taceva plugin release {plugin}`"
+        "find the fault of the plugin with `taceva plugin check {plugin}`, then let it start again with `taceva plugin release {plugin}`"
     ))
 }
 

@@ -157,7 +157,7 @@ fn parts_that_do_not_fit_each_other_are_refused() {
         let result = estimator.fit_linear(&short, None, &SilentProgress);
         assert_eq!(
             refusal(result, estimator.name()),
-            "19 groups for 20 training samples"
+            "19 groups for 20 training samples, expected a group for each sample"
         );
     }
 }

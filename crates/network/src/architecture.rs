@@ -154,7 +154,7 @@ impl Architecture {
         }
         if let Body::Plain { layers, .. } = &self.body {
             if layers.is_empty() {
-                return refuse("a plain network has no layers".into());
+                return refuse("a plain network has no layers, expected at least one".into());
             }
             for (position, layer) in layers.iter().enumerate() {
                 let is_odd = layer.kernel % 2 == 1 && layer.kernel <= 15;

@@ -18,7 +18,10 @@ pub(crate) const PROMISES: &[Promise<dyn Changer>] = &[
         let declared = declared(tried)?;
         let changer = tried.open()?;
         expect(changer.holds() == declared, || {
-            format!("has the items {:?}, declares {declared:?}", changer.holds())
+            format!(
+                "it has the items {:?}, but declares {declared:?}",
+                changer.holds()
+            )
         })
     }),
     ("changer/brings-each-thing", brings_each),

@@ -33,7 +33,7 @@ type Subject<'a> = Tried<'a, dyn ForceTransducer>;
 
 fn facts<'a>(tried: &'a Subject<'_>) -> Result<&'a ForceFacts, Unmet> {
     let facts = tried.descriptor.force();
-    facts.ok_or_else(|| broken("does not declare itself a force transducer"))
+    facts.ok_or_else(|| broken("it does not declare itself a force transducer"))
 }
 
 /// Readings are finite. Forces are below the declared maximum, and axes that the driver does not declare read 0.

@@ -36,7 +36,7 @@ fn declared<'a>(tried: &'a Tried<'_, dyn Lighting>) -> Result<&'a [String], Unme
 pub(crate) fn has_scenes(lighting: &dyn Lighting, declared: &[String]) -> Result<(), Unmet> {
     expect(lighting.scenes() == declared, || {
         format!(
-            "has the scenes {:?}, declares {declared:?}",
+            "it has the scenes {:?}, but declares {declared:?}",
             lighting.scenes()
         )
     })

@@ -344,7 +344,7 @@ fn speed(mm_per_s: f64) -> Result<Speed, Unmet> {
 
 fn facts<'a>(tried: &'a Subject<'_>) -> Result<&'a RobotFacts, Unmet> {
     let facts = tried.descriptor.robot();
-    facts.ok_or_else(|| broken("does not declare itself a robot"))
+    facts.ok_or_else(|| broken("it does not declare itself a robot"))
 }
 
 /// Fails unless each coordinate of both positions differs by at most six standard deviations of a difference of two poses. Without a declared

@@ -31,14 +31,14 @@ type Subject<'a> = Tried<'a, dyn Sensor>;
 
 fn gives_declared(tried: &Subject<'_>) -> Result<(), Unmet> {
     let facts = tried.descriptor.sensor();
-    let facts = facts.ok_or_else(|| broken("does not declare itself a sensor"))?;
+    let facts = facts.ok_or_else(|| broken("it does not declare itself a sensor"))?;
     let given = tried.open()?.frame_info();
     expect(given.byte_len().is_some_and(|length| length > 0), || {
         format!("frames of {given} are empty or too large for a buffer")
     })?;
     if let Some(declared) = facts.frame {
         expect(given == declared, || {
-            format!("frames of {given}, declares {declared}")
+            format!("it gives frames of {given}, but declares {declared}")
         })?;
     }
     stream::gives(tried)?;

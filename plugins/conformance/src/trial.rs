@@ -107,7 +107,11 @@ impl<'a, D: ?Sized> Tried<'a, D> {
         let descriptor = factory.describe(&args);
         let descriptor = descriptor.map_err(|error: DescriptorError| broken(error.to_string()))?;
         expect(descriptor.key() == of_trial.key(), || {
-            format!("describes itself as `{}`", descriptor.key())
+            format!(
+                "it describes itself as `{}`, expected `{}`",
+                descriptor.key(),
+                of_trial.key()
+            )
         })?;
         Ok(Tried {
             factory,
@@ -137,7 +141,9 @@ impl<'a, D: ?Sized> Tried<'a, D> {
     pub(crate) fn is_simulated(&self) -> Result<(), Unmet> {
         match self.descriptor.source() {
             DriverSource::Simulated => Ok(()),
-            source => Err(skipped(format!("its readings are {source}"))),
+            source => Err(skipped(format!(
+                "its readings are {source}, but this check needs simulated readings"
+            ))),
         }
     }
 

@@ -100,7 +100,7 @@ impl Session for InProcess {
         let texts = texts.map_err(|failure| failure.of(driver, DOING))?;
         if let Some(text) = texts.iter().find(|text| text.contains(char::is_control)) {
             let why = format!(
-                "{:?} are not arguments of a device",
+                "{:?} has a control character, which the arguments of a device may not contain",
                 crate::text::shown(text)
             );
             return Err(Failure::new(ErrorKind::Protocol, why).of(driver, DOING));

@@ -246,7 +246,11 @@ fn meant(written: Written) -> Result<Manifest, Refused> {
         let read: DeclaredNeed = (need.get_ref().parse())
             .map_err(|error| Refused::at(need, format!("`needs`: {error}")))?;
         if !needs.insert(read) {
-            return Err(Refused::at(need, "`needs`: listed twice"));
+            let problem = format!(
+                "`needs`: `{}` is listed twice, expected once",
+                shown(need.get_ref())
+            );
+            return Err(Refused::at(need, problem));
         }
     }
     let name = plain_text("name", &written.name)?;

@@ -199,7 +199,7 @@ impl fmt::Display for TimingError {
                 rate,
             } => write!(
                 f,
-                "{samples} samples in a row took more than {limit_s:.3} s, the last one {took_s:.3} s, at a declared {rate}: check the device and the load of this machine, or declare its actual rate (argument `rate`; `rate_hz` of a plugin)"
+                "{samples} samples in a row took more than {limit_s:.3} s at a declared {rate}, the last one {took_s:.3} s: check the device and the load of this machine, or declare its actual rate (argument `rate`, or `rate_hz` of a plugin)"
             ),
             TimingError::Jump { jump_s } => write!(
                 f,

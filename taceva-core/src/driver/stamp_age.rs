@@ -34,7 +34,7 @@ impl fmt::Display for StampAge {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "stamps {:.0} s {} the clock of this machine (limit {AGE_MAX_S} s), so they are of another clock: let its driver add the least difference between arrival and stamp, or stamp readings on arrival (`now_ns` in C, `now` in Rust and Python)",
+            "stamps {:.0} s {} the clock of this machine (limit {AGE_MAX_S} s), so another clock made them: stamp readings on arrival (`now_ns` in C, `now` in Rust and Python), or let the driver add the smallest difference between arrival and stamp",
             self.0.abs(),
             if self.0 < 0.0 { "ahead of" } else { "behind" }
         )

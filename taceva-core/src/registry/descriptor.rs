@@ -107,10 +107,14 @@ fn sensor_fault(facts: &SensorFacts) -> Option<String> {
         .frame
         .filter(|frame| frame.byte_len().is_none_or(|len| len == 0))
     {
-        return Some(format!("frames of {frame} fit no buffer"));
+        return Some(format!(
+            "a frame of {frame} is empty or too large for a buffer"
+        ));
     }
     if let Some([width, height]) = facts.camera.filter(|sides| sides.contains(&0)) {
-        return Some(format!("a camera of {width}×{height} pixels"));
+        return Some(format!(
+            "a camera of {width}×{height} pixels, expected sides of at least 1"
+        ));
     }
     let footprint = facts.footprint.and_then(|footprint| footprint.depth_max());
     let beyond = facts
@@ -155,7 +159,9 @@ fn robot_fault(facts: &RobotFacts, source: DriverSource) -> Option<String> {
 
 fn force_fault(facts: &ForceFacts) -> Option<String> {
     if facts.axes.is_empty() {
-        return Some("a force transducer that measures no component".to_owned());
+        return Some(
+            "a force transducer that measures no component, expected at least one".to_owned(),
+        );
     }
     positive(&[
         ("rate", facts.rate.map(|rate| rate.0)),

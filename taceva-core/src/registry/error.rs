@@ -71,7 +71,7 @@ impl fmt::Display for RegistryError {
                 }
             }
             RegistryError::Twice { key, first, second } => {
-                write!(f, "two drivers are called `{key}`: {first}, and {second}")
+                write!(f, "two drivers have the key `{key}`: {first} and {second}")
             }
             RegistryError::Kind {
                 key,

@@ -175,7 +175,7 @@ impl<V: Merge + Clone + Default> Cells<V> {
         let cells = record.read_cells(CellKey::from_text, |record| read(record).map(Arc::new))?;
         match cells.iter().find(|(key, _)| key.point.is_some() != named) {
             Some((key, _)) => Err(format!(
-                "cell `{}` in a state {} locations",
+                "cell `{}` does not fit a state {} locations",
                 key.to_text(),
                 if named { "with" } else { "without" }
             )),

@@ -175,7 +175,7 @@ impl ModelEstimator for Auto {
         pictures.features = closer.unwrap_or(training.features);
         if pictures.features.samples() != samples {
             return Err(invalid(format!(
-                "{samples} training samples, but finer features of {} samples",
+                "{samples} training samples, but finer features of {} samples, expected equal numbers",
                 pictures.features.samples()
             )));
         }

@@ -81,7 +81,7 @@ impl LinearRegressor {
         let expected = channels.len().checked_mul(shape.len());
         if Some(weights.len()) != expected || bias.len() != channels.len() {
             return Err(invalid(format!(
-                "{} weights and {} biases for {} channels of {} features",
+                "{} weights and {} biases for {} channels of {} features, expected a weight for each channel and feature, and a bias for each channel",
                 weights.len(),
                 bias.len(),
                 channels.len(),

@@ -81,7 +81,7 @@ impl FeatureDistance {
         let samples = training.samples();
         if let Some(groups) = groups.filter(|groups| groups.len() != samples) {
             return Err(invalid(format!(
-                "{} groups for {samples} samples",
+                "{} groups for {samples} samples, expected a group for each sample",
                 groups.len()
             )));
         }

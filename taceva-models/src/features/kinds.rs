@@ -166,7 +166,7 @@ impl TryFrom<String> for FeatureKinds {
 
     fn try_from(text: String) -> Result<FeatureKinds, String> {
         FeatureKinds::parse(&text)
-            .ok_or_else(|| format!("`{}` names no kinds of features", taceva_core::shown(&text)))
+            .ok_or_else(|| format!("`{}` names no kinds of features, expected pixels, markers, gradients or statistics, or several joined by +", taceva_core::shown(&text)))
     }
 }
 

@@ -48,11 +48,13 @@ impl Pca {
     ) -> Result<Pca, ModelError> {
         if !training.values().iter().all(|value| value.is_finite()) {
             return Err(invalid(
-                "principal components of features that are not finite",
+                "cannot compute principal components: a feature is not finite",
             ));
         }
         if training.samples() == 0 {
-            return Err(invalid("principal components without a sample"));
+            return Err(invalid(
+                "cannot compute principal components without a sample",
+            ));
         }
         let design = Design::new(training, FeatureScale::None);
         let spectrum = Spectrum::new(&design, progress)?;
@@ -94,7 +96,9 @@ impl Pca {
         let mut numbers = mean.iter().chain(&components).chain(&variance_ratio);
         let whole = mean.len() == shape.len() && Some(components.len()) == places;
         if !whole || !numbers.all(|value| value.is_finite()) {
-            return Err(invalid("principal components with a number out of range"));
+            return Err(invalid(
+                "the principal components have a number that is not finite, or do not fit the features",
+            ));
         }
         Ok(Pca {
             shape,

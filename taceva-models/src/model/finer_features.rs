@@ -30,7 +30,7 @@ impl Model {
     ) -> Result<Model, ModelError> {
         if input.validation.is_some() != closer.validation.is_some() {
             return Err(invalid(
-                "expected finer features of a validation part exactly if the input has a validation part",
+                "only the input or only its finer features have a validation part, expected both or neither",
             ));
         }
         let chosen =

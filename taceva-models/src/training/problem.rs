@@ -135,13 +135,13 @@ fn check(part: &TrainingSet<'_>, name: &str) -> Result<(), ModelError> {
     }
     if part.targets.values.len() != samples * channels {
         return Err(invalid(format!(
-            "{} labels for {samples} {name} samples of {channels} channels",
+            "{} labels for {samples} {name} samples of {channels} channels, expected a label for each sample and channel",
             part.targets.values.len()
         )));
     }
     if let Some(groups) = part.groups.filter(|groups| groups.len() != samples) {
         return Err(invalid(format!(
-            "{} groups for {samples} {name} samples",
+            "{} groups for {samples} {name} samples, expected a group for each sample",
             groups.len()
         )));
     }

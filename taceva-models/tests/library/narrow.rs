@@ -17,6 +17,6 @@ fn fewer_samples_than_features_are_refused_with_the_reason() {
     assert_eq!(
         error.to_string(),
         "15 training samples, smartcore/svr needs at least as many as there are features, 16: smartcore 0.7.0 truncates each sample to \
-         that number of values; set a smaller `size` or `pca`, or use linfa/svr"
+         that number of values. Set a smaller `size` or `pca`, or use linfa/svr"
     );
 }

@@ -20,7 +20,7 @@ pub enum SealError {
     )]
     Gone,
     /// File that contains a seal and nothing else.
-    #[error("a seal without its file")]
+    #[error("a seal without its file: restore the file, or remove the seal")]
     Alone,
     /// Seal that cannot be parsed.
     #[error("the seal cannot be read: {problem}")]

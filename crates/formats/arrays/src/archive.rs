@@ -113,8 +113,8 @@ fn directory(archive: &dyn ByteSource) -> Result<Directory, Problem> {
     {
         return Err(Problem::damaged(
             end_at,
-            "a directory that is not before its end record",
-            "a directory before it",
+            "a directory that overlaps its end record or follows it",
+            "a directory before its end record",
         ));
     }
     Ok(found)

@@ -192,7 +192,7 @@ impl MessageStore for Rosbag1 {
                 let wrong = || {
                     self.source.damaged(
                         Place::byte(*at),
-                        "an index whose length differs from the announced length",
+                        "an index has another length than it announces",
                     )
                 };
                 if entries.len() + data.len() / 12 > limits::MESSAGES {

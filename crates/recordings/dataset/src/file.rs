@@ -96,7 +96,7 @@ pub(crate) fn refuse_link(path: &Path) -> Result<(), DatasetError> {
     Err(DatasetError::damaged(
         path,
         format!(
-            "a symbolic link to {target}, which no recorder follows: put the target back by `rm {link} && mv {target} {link}`; or move the whole recording to the disk of the target, replace the link by the target, and name the new path; remove a link that is not yours"
+            "a symbolic link to {target}, which no recorder follows: put the target back by `rm {link} && mv {target} {link}`. Or move the whole recording to the disk of the target, replace the link by the target, and name the new path. Remove a link that is not yours"
         ),
     ))
 }

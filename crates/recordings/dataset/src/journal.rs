@@ -114,7 +114,7 @@ impl Journal {
         let cut_bytes = (bytes.len() - scanned.whole) as u64;
         if cut_bytes > 0 {
             file.set_len(scanned.whole as u64)
-                .map_err(DatasetError::io("cut the torn tail of", path))?;
+                .map_err(DatasetError::io("remove the incomplete end of", path))?;
         }
         // A killed process leaves records and a name that are not durable yet: sync before any append.
         file.sync_all()
@@ -234,7 +234,7 @@ fn scan(bytes: &[u8]) -> Result<Scanned, (usize, &'static str)> {
             return if end == bytes.len() {
                 Ok(scanned)
             } else {
-                Err((at, "a changed record before another record"))
+                Err((at, "a damaged record before another record"))
             };
         }
         scanned.records.push(JournalRecord {

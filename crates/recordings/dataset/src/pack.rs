@@ -205,7 +205,7 @@ pub(crate) fn cut_behind(folder: &Path, end: PackEnd) -> Result<(), DatasetError
             .write(true)
             .open(&path)
             .and_then(|file| file.set_len(end.length))
-            .map_err(DatasetError::io("cut the torn tail of", &path))?,
+            .map_err(DatasetError::io("remove the incomplete end of", &path))?,
         Ok(found) if found.len() < end.length => {
             return Err(DatasetError::damaged(
                 &path,

@@ -49,7 +49,7 @@ impl Hang {
 
     fn skips(&self) -> Outcome {
         Outcome::Skipped(format!(
-            "it did not {}, as in `{}`, which failed",
+            "it did not {} in the check `{}`, which failed",
             self.call, self.check
         ))
     }

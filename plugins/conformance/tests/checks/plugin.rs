@@ -130,7 +130,7 @@ fn checks_that_hang_in_the_call_of_an_earlier_one_are_skipped() {
         !failed.is_empty() && failed.iter().all(is_first),
         "{results:#?}"
     );
-    let why = "it did not open the device, as in `driver/opens`, which failed";
+    let why = "it did not open the device in the check `driver/opens`, which failed";
     let skipped = Outcome::Skipped(why.to_owned());
     let skipped = results.iter().filter(|result| result.outcome == skipped);
     // No process is started for these checks.
@@ -150,7 +150,7 @@ fn a_plugin_that_hangs_while_it_loads_fails_one_check_and_skips_all_others_at_on
         matches!(&first.outcome, Outcome::Failed(found) if found.contains(why)),
         "{first:?}"
     );
-    let why = "it did not load its library, as in `library/loads`, which failed";
+    let why = "it did not load its library in the check `library/loads`, which failed";
     for result in others {
         assert_eq!(result.outcome, Outcome::Skipped(why.to_owned()));
         assert!(result.took_s < 1.0, "{result:?}");

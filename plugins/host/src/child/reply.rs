@@ -74,7 +74,10 @@ fn is_time(stamp: &Stamp) -> Result<(), String> {
     if is_time(stamp.valid_s) && stamp.received_s.is_none_or(is_time) {
         return Ok(());
     }
-    Err(format!("a stamp of {} s, expected a time", stamp.valid_s))
+    Err(format!(
+        "a stamp of {} s, expected a finite time",
+        stamp.valid_s
+    ))
 }
 
 fn is_pose(pose: &Pose, stamp: &Stamp) -> Result<(), String> {

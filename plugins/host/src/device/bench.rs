@@ -59,7 +59,8 @@ impl PluginBench {
     ) -> Result<(), DriverError> {
         let failed = |failure: Failure| failure.of(&self.plugin, doing);
         let function = function.ok_or_else(|| {
-            let why = format!("`{BENCH}` lacks this function");
+            let why =
+                format!("the extension `{BENCH}` of the plugin lacks the function for this call");
             failed(Failure::new(ErrorKind::Unsupported, why))
         })?;
         call(|error| run(function, error)).map_err(failed)

@@ -188,7 +188,7 @@ fn from_si(pose: abi::Pose, driver: &DriverKey, doing: &'static str) -> Result<P
     };
     si.to_pose().ok_or_else(|| {
         let why = format!(
-            "a pose at {:?} m turned by {:?}, expected numbers and a unit quaternion",
+            "a pose at {:?} m turned by {:?}, expected finite numbers and a unit quaternion",
             si.position_m, si.quaternion
         );
         Failure::new(ErrorKind::DeviceFault, why).of(driver, doing)

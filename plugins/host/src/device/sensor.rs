@@ -222,7 +222,7 @@ impl PluginSensor {
         }
         let is_in_buffer = buffer.is_some_and(|buffer| std::ptr::eq(buffer, frame.data));
         if !is_in_buffer && frame.release.is_none() {
-            let why = "a frame outside the buffer must be lent, but it has no `release`";
+            let why = "a frame is outside the buffer but has no `release`, expected `release` in every frame that the plugin lends";
             return refused(ErrorKind::Abi, why.to_owned());
         }
         // SAFETY: not NULL, of the declared length, and lent until `release`, which `taken` calls on drop.

@@ -23,7 +23,7 @@ impl<'a> Lent<'a> {
             && set.groups.is_none_or(|groups| groups.len() == samples);
         if !fits {
             let why = format!(
-                "{samples} samples of {channels} channels, with {} targets",
+                "{samples} samples of {channels} channels, with {} targets, expected a target for each sample and channel, and no group or a group for each sample",
                 set.targets.values.len()
             );
             return Err(refused(why));

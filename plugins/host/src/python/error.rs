@@ -63,7 +63,7 @@ pub enum PythonError {
     },
     /// The user that runs the plugin may not read a required file.
     #[error(
-        "let every user read {} (`chmod o+rx`): a plugin started by root runs as user {user}, who needs {}, but {} denies it; or make the environment from an interpreter that every user may read, such as /usr/bin/python3; or run the plugin unconfined with `--trust ID`; or run `taceva` as another user than root",
+        "let every user read {} (`chmod o+rx`): a plugin started by root runs as user {user}, who needs {}, but {} denies it. Otherwise make the environment from an interpreter that every user may read, such as /usr/bin/python3, run the plugin unconfined with `--trust ID`, or run `taceva` as another user than root",
         shown(closed),
         shown(path),
         shown(closed)

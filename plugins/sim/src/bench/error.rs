@@ -17,7 +17,7 @@ pub enum PressError {
         value: f64,
     },
     /// The place is outside the probed surface.
-    #[error("a press at {} × {} mm, expected a place on {outline}", place_mm[0], place_mm[1])]
+    #[error("a press at x = {} mm and y = {} mm, expected a place on {outline}", place_mm[0], place_mm[1])]
     Outside {
         /// Place, in mm.
         place_mm: [f64; 2],

@@ -98,7 +98,8 @@ impl ForceTransducer for SimulatedTransducer {
         let force_n = state.read();
         let range_n = state.force_range_n();
         if let Some(beyond) = force_n.iter().find(|force| force.abs() >= range_n) {
-            let why = format!("{beyond} N exceeds the range, expected less than {range_n} N");
+            let why =
+                format!("a force of {beyond} N exceeds the range, expected less than {range_n} N");
             return Err(failed(ErrorKind::OutOfRange, &KEY, doing, why));
         }
         let wrench = Wrench {

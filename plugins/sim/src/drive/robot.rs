@@ -144,7 +144,7 @@ impl SimulatedRobot {
             return Err(failed(ErrorKind::OutOfRange, &KEY, doing, why));
         }
         if speed.mm_per_s() > SPEED_MAX_MM_PER_S {
-            let why = format!("{speed}, expected at most {SPEED_MAX_MM_PER_S} mm/s");
+            let why = format!("a speed of {speed}, expected at most {SPEED_MAX_MM_PER_S} mm/s");
             return Err(failed(ErrorKind::OutOfRange, &KEY, doing, why));
         }
         // Rounded to the grid of the plugin interface, so a built-in bench and a plugin move alike.

@@ -110,7 +110,7 @@ fn presses_that_no_rig_would_make_are_refused_by_name() {
     };
     assert_eq!(
         refused(place),
-        "a press at 8.1 × 0 mm, expected a place on a rectangle of ±8 × ±10 mm"
+        "a press at x = 8.1 mm and y = 0 mm, expected a place on a rectangle of ±8 × ±10 mm"
     );
     let depth = Press {
         depth_mm: 1.2,
@@ -144,7 +144,7 @@ fn presses_that_no_rig_would_make_are_refused_by_name() {
     });
     assert_eq!(
         dome.expect_err("outside").to_string(),
-        "a press at 13 × 13 mm, expected a place on a disc of 17 mm radius"
+        "a press at x = 13 mm and y = 13 mm, expected a place on a disc of 17 mm radius"
     );
 }
 

@@ -201,7 +201,7 @@ impl Setup {
                 None => "delays forces by an unknown time".to_owned(),
             };
             warnings.push(format!(
-                "low pass {filter} of the box (`setuserfilter`) {delay}, which only `latency_ms` under [force] corrects: set it to 0 on the Settings page of the box, or run `taceva rig tap`"
+                "low pass {filter} of the box (`setuserfilter`) {delay}, which only `latency_ms` under [force] corrects: switch the filter off (0) on the Settings page of the box, or run `taceva rig tap`"
             ));
         }
         warnings

@@ -100,7 +100,7 @@ impl Frames {
                 let least = stride * (size(sent.height) - 1) + 2 * size(sent.width);
                 if stride < 2 * size(sent.width) || picture.bytes.len() < least {
                     let why = format!(
-                        "a picture of {} bytes, expected at least {least} for {}; before it, {}",
+                        "a picture of {} bytes, expected at least {least} for {}; before this picture, {}",
                         picture.bytes.len(),
                         given.picture,
                         losses()

@@ -178,7 +178,7 @@ impl Robot for Arm {
         let port = self.options.rich_port;
         let unheld = self.limits.is_none().then(|| {
             format!(
-                "the controller sends no complete report on port {port}, so its speed limits are unknown: the controller replaces a speed beyond its limits without an error; open this port between this machine and the controller, or state `rich_port`"
+                "the controller sends no complete report on port {port}, so its speed limits are unknown, and it replaces a speed beyond them without an error: open this port between this machine and the controller, or state `rich_port`"
             )
         });
         unheld.into_iter().collect()

@@ -123,7 +123,7 @@ impl JointSums {
         let ranged = if n == 0 { 0 } else { channels };
         if record.values.len() != 2 * ranged || !ranges.iter().all(ascending) {
             return Err(format!(
-                "{} values, expected {ranged} ranges",
+                "{} values, expected the two ends of {ranged} ranges in ascending order",
                 record.values.len()
             ));
         }

@@ -94,7 +94,12 @@ impl LightSums {
         let range = match record.values[..] {
             [] if n == 0 => None,
             [least, greatest] if n > 0 && least <= greatest => Some(Forces { least, greatest }),
-            _ => return Err(format!("{:?} as the forces of {n} presses", record.values)),
+            _ => {
+                return Err(format!(
+                    "{:?} as the forces of {n} presses, expected the least and the greatest, or none without presses",
+                    record.values
+                ));
+            }
         };
         let read = |record: &Record| {
             let (&[presses], _) = record.exactly::<1, 0>()?;

@@ -147,7 +147,7 @@ fn read_branch(record: &Record) -> Result<Branch, String> {
         && !record.counts.contains(&0)
         && record.cells.is_empty();
     if !sound || record.counts.len() != depths.len() || record.sums.len() != depths.len() {
-        return Err("expected ascending depths, each with a count and a sum of forces".to_owned());
+        return Err("invalid depths of a branch, expected ascending depths, each with a count and a sum of forces".to_owned());
     }
     let mut branch = Branch::default();
     for (row, depth) in depths.iter().enumerate() {

@@ -140,7 +140,9 @@ impl SurfaceClouds {
                 places.insert([place[0], place[1], place[2]].map(Ordered::new), ());
             }
             let found = whole.then_some(places).filter(|places| !places.is_empty());
-            found.ok_or_else(|| "expected places of three lengths each".to_owned())
+            found.ok_or_else(|| {
+                "invalid places of a surface, expected places of three lengths each".to_owned()
+            })
         };
         let cell = |record: &Record| {
             let ([], []) = record.with_cells()?;

@@ -83,7 +83,7 @@ impl LightingSums {
             |cell| {
                 let ([n], [error, intensity]) = cell.exactly()?;
                 if *n == 0 {
-                    return Err("a scene without samples".to_owned());
+                    return Err("a scene without samples, expected at least one".to_owned());
                 }
                 Ok(SceneSums {
                     n: *n,

@@ -52,7 +52,10 @@ impl LineSums {
         let (&[n, n_invalid], sums) = record.with_cells()?;
         let hull = Hull::from_values(&record.values)?;
         if hull.is_empty() != (n == 0) || !record.cells.is_empty() {
-            return Err(format!("{n} samples and {} corners", hull.corners().len()));
+            return Err(format!(
+                "{n} samples and {} corners of their hull, expected both or neither",
+                hull.corners().len()
+            ));
         }
         Ok(LineSums {
             n,

@@ -64,7 +64,7 @@ impl SpatialSums {
         };
         let cells = record.read_cells(parse, |cell| {
             Moments::read_record(cell).and_then(|moments| match moments.n {
-                0 => Err("a bin without samples".to_owned()),
+                0 => Err("a bin without samples, expected at least one".to_owned()),
                 _ => Ok(moments),
             })
         })?;

@@ -148,7 +148,7 @@ impl SurfaceSums {
         let cells = record.read_cells(parse, |record| {
             let ([n, n_normal], [sum, squares, normal_sum, normal_squares]) = record.exactly()?;
             if *n == 0 || n_normal > n {
-                return Err(format!("{n} samples, {n_normal} of them without shear"));
+                return Err(format!("{n} samples in a cell, {n_normal} of them without shear, expected a sample or more, and at most all without shear"));
             }
             let moments = |n: &u64, sum: &ExactSum, squares: &ExactSum| Moments {
                 n: *n,

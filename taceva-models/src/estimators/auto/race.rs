@@ -76,7 +76,7 @@ impl Race<'_> {
         (!self.affords(needed) && !ALWAYS.contains(&info.name)).then(|| {
             let left = (self.budget_s - self.spent_s).max(0.0);
             format!(
-                "beyond the budget: trying and fitting it takes {needed:.1} s of work, {left:.1} of budget_s={} are left",
+                "beyond the budget: trying and fitting it takes {needed:.1} s of work, but {left:.1} s of budget_s={} are left",
                 self.budget_s
             )
         })

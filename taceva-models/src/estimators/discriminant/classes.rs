@@ -36,7 +36,7 @@ impl Discriminant {
         let is_whole = features.iter().all(|sample| sample.len() == length);
         if length == 0 || !is_whole || features.len() != classes.len() {
             let message = format!(
-                "{} samples of features and {} classes, expected equal numbers, at least one, of equal lengths",
+                "{} samples of features and {} classes, expected one class for each sample, at least one sample, and samples of one length",
                 features.len(),
                 classes.len()
             );

@@ -59,8 +59,7 @@ pub(super) fn check(dataset: &LeRobot) -> Result<(), TableError> {
             && *length != take.rows
         {
             let problem = format!(
-                "episode {episode} has {} rows, but its description states {length}: its pictures cannot be assigned; renumber the takes \
-                 or correct `length`",
+                "episode {episode} has {} rows, but its description states {length}, so its pictures cannot be assigned: renumber the takes or correct `length`",
                 take.rows
             );
             return Err(Source::new(described)?.damaged(Place::of("length"), problem));

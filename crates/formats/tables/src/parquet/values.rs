@@ -23,7 +23,7 @@ impl ValueSize {
     /// Checks that a dictionary of `values` values fits into its `bytes` bytes, because memory is allocated for the stated number.
     pub(super) fn check_dictionary(self, values: u32, bytes: usize) -> Result<(), String> {
         match self.0 {
-            1 => Err("the dictionary has booleans".to_owned()),
+            1 => Err("the dictionary has booleans, expected numbers or bytes".to_owned()),
             bits => ValueSize(bits.max(8)).check_plain(values, bytes),
         }
     }

@@ -186,7 +186,7 @@ impl<'a> Cdr<'a> {
             Kind::Bool => match self.number::<1>()? {
                 [0] => Cell::Bool(false),
                 [1] => Cell::Bool(true),
-                [other] => return Err(format!("a boolean has the value {other}")),
+                [other] => return Err(format!("a boolean has the value {other}, expected 0 or 1")),
             },
             Kind::I8 => Cell::Integer(i8::from_le_bytes(self.number()?).into()),
             Kind::U8 => Cell::Integer(u8::from_le_bytes(self.number()?).into()),

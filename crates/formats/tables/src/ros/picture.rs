@@ -223,7 +223,8 @@ impl RawPicture {
             .filter(|whole| *whole as u64 <= limits::CELL_BYTES);
         let (Some(row), Some(whole)) = (row, whole) else {
             return Err(format!(
-                "{width}×{height} pixels of {encoding}, {step} bytes per row"
+                "{width}×{height} pixels of {encoding}, {step} bytes per row, expected a pixel or more, rows that hold their pixels, and at most {} bytes",
+                limits::CELL_BYTES
             ));
         };
         if data.len() != whole {

@@ -10,7 +10,7 @@ pub(super) static CHECK: Check = Check {
     code: "TAC017",
     name: "clipped-taxel",
     looks_for: "taxels clipped at their greatest or least value: it occurs in at least 1 % of the samples, and over three times as often as the nearest other value",
-    hint: "press with less force, or lower the gain of the converter: the signal beyond the limit is lost, and models learn a constant there; if the value marks a missing reading, list it as `placeholders` in [signals] of the map",
+    hint: "press with less force, or lower the gain of the converter. The signal beyond the limit is lost, and models learn a constant there. If the value marks a missing reading, list it as `placeholders` in [signals] of the map",
     reads: Some(Field::Signals),
     find,
 };

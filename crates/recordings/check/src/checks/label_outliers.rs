@@ -15,8 +15,7 @@ pub(super) static CHECK: Check = Check {
 };
 
 /// Remedy for a recording made by this program, which has no import map.
-const OF_RECORDING: &str = "look at these samples: a transducer that was overloaded or read during motion gives such labels; state why they are \
-    right, or write the recording with `taceva export`, and import it without them by [drop] of its map.toml";
+const OF_RECORDING: &str = "look at these samples: a transducer that was overloaded or read during motion gives such labels. State why they are right, or write the recording with `taceva export`, and import it without them by [drop] of its map.toml";
 
 /// Distance of Tukey's outer fences from the quartiles, in interquartile ranges.
 const FENCE: f64 = 3.0;

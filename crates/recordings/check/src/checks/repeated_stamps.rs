@@ -48,8 +48,7 @@ pub(super) fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         .collect::<Vec<_>>()
         .join(", ");
     let message = format!(
-        "{timed} rows have only {}, by which they were joined with {joined}: rows of equal time get the labels of the \
-         same row, {off}",
+        "{timed} rows were joined with {joined} by only {}: rows of equal time get the labels of the same row, {off}",
         counted(different.len(), "different time")
     );
     vec![evidence.found(Severity::Warning, message, &shared)]

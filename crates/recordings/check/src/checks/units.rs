@@ -9,7 +9,7 @@ pub(super) static CHECK: Check = Check {
     code: "TAC001",
     name: "units-by-magnitude",
     looks_for: "labels too large or too small for their unit",
-    hint: "set the unit of the labels in the map as the recording program wrote them; N, gf and mN are often confused, as are mm and m; if positions are those of a robot, subtract the place of the gel by `offset`",
+    hint: "set the unit of the labels in the map as the recording program wrote them. N, gf and mN are often confused, as are mm and m. If positions are those of a robot, subtract the place of the gel by `offset`",
     reads: None,
     find,
 };

@@ -35,7 +35,7 @@ fn forces_that_were_joined_by_whole_seconds_are_warned_of_and_no_lag_is_sought()
     assert_eq!(codes(&report), [("TAC036", Severity::Warning)]);
     assert_eq!(
         message(&report, "TAC036"),
-        "150 rows have only 5 different times, by which they were joined with `ft`: rows of equal time get the labels of the same row, so a match may be wrong by as much as 1.000 s"
+        "150 rows were joined with `ft` by only 5 different times: rows of equal time get the labels of the same row, so a match may be wrong by as much as 1.000 s"
     );
 }
 
@@ -68,10 +68,13 @@ fn stamps_that_are_all_zero_and_stamps_of_tenths_are_warned_of_and_exact_ones_ar
     };
     type Stamps<'a> = (&'a dyn Fn(u32) -> f64, Option<&'a str>);
     let stamps: [Stamps<'_>; 3] = [
-        (&|_| 0.0, Some("120 rows have only 1 different time,")),
+        (
+            &|_| 0.0,
+            Some("120 rows were joined with `ft` by only 1 different time:"),
+        ),
         (
             &|row| f64::from(row / 4) * 0.1,
-            Some("120 rows have only 30 different times"),
+            Some("120 rows were joined with `ft` by only 30 different times"),
         ),
         (&|row| f64::from(row) / 30.0, None),
     ];

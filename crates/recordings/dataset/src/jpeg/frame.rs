@@ -39,7 +39,7 @@ impl Frame {
         let (height, width) = (big_endian(&body[1..3]), big_endian(&body[3..5]));
         if *precision != 8 || width == 0 || height == 0 {
             return Err(format!(
-                "{width}×{height} of {precision} bits, expected 8 bits and a pixel or more"
+                "a picture of {width}×{height} pixels of {precision} bits, expected sides of at least 1 and 8 bits"
             ));
         }
         let (coded, more) = rest.as_chunks::<3>();

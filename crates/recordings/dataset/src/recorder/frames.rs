@@ -139,7 +139,7 @@ impl Recorder {
         let (file, _) = open_regular(&pack, u64::MAX)?;
         let bytes = read_span(file, &pack, span)?;
         if Digest::of(&bytes) != entry.digest {
-            return Err(self.damaged("its first frame is not the one recorded".to_owned()));
+            return Err(self.damaged("its first frame differs from the recorded frame".to_owned()));
         }
         let info = self.frames_info();
         let order = info.map_or(ChannelOrder::Rgb, |info| info.channel_order);

@@ -170,7 +170,7 @@ fn read_group(group: &dyn RowGroupReader, length: usize) -> Result<Vec<f32>, Par
         column.clear();
         let ColumnReader::FloatColumnReader(mut reader) = group.get_column_reader(position)? else {
             return Err(ParquetError::General(
-                "a column of another type, expected FLOAT".to_owned(),
+                "a column has another type, expected FLOAT".to_owned(),
             ));
         };
         while column.len() < rows {

@@ -25,9 +25,7 @@ pub(super) fn unread(groups: &[&FileGroup]) -> Option<String> {
 pub(super) fn bare_clips(clips: &FileGroup) -> String {
     let clip = clips.first();
     format!(
-        "{clip} has frames, but no file here has labels: write a table beside it, such as labels.csv with the columns `frame` (from 0) \
-         and `Fz`, and draft again (`video = {clip:?}`, `index = \"frame\"`); or write its frames as pictures, which need no table: \
-         `ffmpeg -i {clip} %06d.png`"
+        "{clip} has frames, but no file here has labels: write a table beside it, such as labels.csv with the columns `frame` (from 0) and `Fz`, and draft again (`video = {clip:?}`, `index = \"frame\"`). Or write its frames as pictures, which need no table: `ffmpeg -i {clip} %06d.png`"
     )
 }
 

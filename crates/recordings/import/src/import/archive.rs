@@ -217,7 +217,7 @@ impl Read for PackedTape {
     fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
         let read = self.decoder.read(into)?;
         self.left = self.left.checked_sub(read as u64).ok_or_else(|| {
-            io::Error::other(format!("unpacked it is more than {GROWTH} times as large as its file, which is not accepted: gunzip it first"))
+            io::Error::other(format!("the unpacked archive is more than {GROWTH} times as large as its file, expected less: gunzip it first"))
         })?;
         Ok(read)
     }

@@ -178,8 +178,7 @@ impl ImportPlan {
         let refused = |problem: String| ImportError::request(before.path(), problem);
         if !header.presses.is_empty() || header.stream.is_some() {
             return Err(refused(
-                "recorded by a run or a capture, so no import can extend it; import these rows as a separate dataset, and name both when \
-                 you evaluate"
+                "recorded by a run or a capture, so no import can extend it: import these rows as a separate dataset, and name both when you evaluate"
                     .to_owned(),
             ));
         }

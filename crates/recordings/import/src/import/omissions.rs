@@ -50,8 +50,7 @@ pub(super) fn count(
         return Err(ImportError::request(
             &folder.path().join(array),
             format!(
-                "{count} of its chunks were never written, or are lost with a damaged index: write `fill = true` below `map_version` to \
-                 read their elements as the fill value, usually 0; to find them, run `h5dump -H -p` or read the array by h5py"
+                "{count} of its chunks were never written, or are lost with a damaged index: write `fill = true` below `map_version` to read their elements as the fill value, usually 0. To find them, run `h5dump -H -p` or read the array by h5py"
             ),
         ));
     }

@@ -189,8 +189,7 @@ impl fmt::Display for ImportWarning {
             ),
             ImportWarning::RepeatedStamps { join, rows, times } => write!(
                 f,
-                "the {rows} rows of join `{}` have only {}, and the first row of each is taken: the true time between a row and its label is \
-                 unknown; join by a clock with fractions of a second, or by `on = \"row\"` if both tables were written in step",
+                "the {rows} rows of join `{}` have only {}, and the first row of each time is taken, so the true time between a row and its label is unknown. Join by a clock with fractions of a second, or by `on = \"row\"` if both tables were written in step",
                 taceva_core::shown(join),
                 taceva_core::counted(*times, "different time")
             ),
@@ -207,8 +206,7 @@ impl fmt::Display for ImportWarning {
             ),
             ImportWarning::NoPictures { pictures, first } => write!(
                 f,
-                "the map has no [frame], so no row has a picture; the folder has {pictures} pictures, such as {}: if they show these rows, \
-                 name them by `column` or `pattern` of [frame] and import again",
+                "the map has no [frame], so no row has a picture. The folder has {pictures} pictures, such as {}: if they show these rows, name them by `column` or `pattern` of [frame] and import again",
                 taceva_core::shown(first)
             ),
             ImportWarning::JoinPause {
@@ -219,16 +217,14 @@ impl fmt::Display for ImportWarning {
                 tolerance_ms,
             } => write!(
                 f,
-                "{} {} labels of `{}` from up to {farthest_ms} ms away, although its rows are usually {usual_ms} ms apart: the join bridges pauses of the table; write `tolerance_ms = {tolerance_ms}` with `unmatched = \"drop\"` to leave these rows out, or `pick = \"before\"` if a row \
-                 is valid until the next row",
+                "{} {} labels of `{}` from up to {farthest_ms} ms away, although its rows are usually {usual_ms} ms apart: the join bridges pauses of the table. Write `tolerance_ms = {tolerance_ms}` with `unmatched = \"drop\"` to leave these rows out, or `pick = \"before\"` if a row is valid until the next row",
                 taceva_core::counted(*rows, "row"),
                 taceva_core::by_count(*rows, "takes", "take"),
                 taceva_core::shown(join)
             ),
             ImportWarning::JoinLag { join, rows, equal } => write!(
                 f,
-                "without `lag_ms`, `{}` has a row at the time of {equal} of {}, to a microsecond, so both have stamps of one clock: write `lag_ms = \
-                 0`, unless the pictures are late by this lag",
+                "without `lag_ms`, `{}` has rows with the same time, to a microsecond, as {equal} of {}, so both have stamps of one clock. Write `lag_ms = 0`, unless the pictures are late by this lag",
                 taceva_core::shown(join),
                 taceva_core::counted(*rows, "row")
             ),
@@ -239,23 +235,20 @@ impl fmt::Display for ImportWarning {
                 spans,
             } => write!(
                 f,
-                "`{}` matches {matched} of {}: {}; if its times cover only a part of the rows, this is right; if not, compare `lag_ms`, `unit`, `start_s` and \
-                 `tolerance_ms` with the clocks",
+                "`{}` matches {matched} of {}: {}. This is right if its times cover only a part of the rows. If not, compare `lag_ms`, `unit`, `start_s` and `tolerance_ms` with the clocks",
                 taceva_core::shown(join),
                 taceva_core::counted(*rows, "row"),
                 taceva_core::shown(spans)
             ),
             ImportWarning::TimeOrder { at, rows } => write!(
                 f,
-                "the time of {} is before that of the row above, first at {}, and the next row is later than both: if stamps are swapped, \
-                 correct them, because such rows are joined by a wrong time; rows written in another order are joined correctly",
+                "the time of {} is before that of the row above, first at {}, and the next row is later than both. If stamps are swapped, correct them, because such rows are joined by a wrong time. Rows written in another order are joined correctly",
                 taceva_core::counted(*rows, "row"),
                 taceva_core::shown(at)
             ),
             ImportWarning::DropUnmatched { name } => write!(
                 f,
-                "`{}` in `frames_named` of [drop] left out no row: another rule left the row out already, or the table has another name; write the \
-                 name as in the table, or `clip.mp4#12` (from 0) for a picture in a clip or an array",
+                "`{}` in `frames_named` of [drop] left out no row: another rule left the row out already, or the table has another name. Write the name as in the table, or `clip.mp4#12` (from 0) for a picture in a clip or an array",
                 taceva_core::shown(name)
             ),
             ImportWarning::TaxelCode { column, code } => write!(

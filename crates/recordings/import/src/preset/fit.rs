@@ -169,7 +169,7 @@ fn touchd(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let first = value.as_object().and_then(|all| all.iter().next());
     let sensors = first.and_then(|(key, sensors)| Some((key, sensors.as_object()?)));
     let (key, sensors) = sensors.ok_or_else(|| {
-        wrong("expected an object of objects of lists: object and speed, then sensor")
+        wrong("expected an object for each test object and speed, which holds a list of rows for each sensor")
     })?;
     let (sensor, rows) = sensors
         .iter()

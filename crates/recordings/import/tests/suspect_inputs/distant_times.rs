@@ -77,8 +77,9 @@ fn a_long_lag_between_tables_that_share_their_stamps_is_warned_of() {
     let shared = folder(&cam, &ft);
     let warned = warning(&shared, "tolerance_ms = 100\nlag_ms = -200\n");
     assert!(
-        warned
-            .starts_with("join-lag: without `lag_ms`, `ft` has a row at the time of 20 of 20 rows"),
+        warned.starts_with(
+            "join-lag: without `lag_ms`, `ft` has rows with the same time, to a microsecond, as 20 of 20 rows"
+        ),
         "{warned}"
     );
     // A short lag is the delay of pictures.

@@ -173,7 +173,7 @@ impl Regressor for ModelProxy {
         let samples = features.samples();
         if features.shape() != self.shape || into.len() != samples * self.channels.len() {
             let why = format!(
-                "{samples} samples of {} into {} numbers, expected samples of {} and {} numbers each",
+                "{samples} samples of {} and a buffer of {} numbers, expected samples of {} and {} numbers for each",
                 features.shape(),
                 into.len(),
                 self.shape,

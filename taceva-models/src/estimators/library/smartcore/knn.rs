@@ -131,7 +131,9 @@ impl Lookup {
         let counts = tensors.integers(COUNTS_TENSOR, &[sizes.targets])?;
         let is_met = |count: &u32| *count > 0 && *count as usize <= samples;
         if !counts.iter().all(is_met) {
-            return Err(damaged("more neighbours than samples, or none"));
+            return Err(damaged(
+                "the number of neighbours is 0, or exceeds the number of samples",
+            ));
         }
         let rows = tensors.singles(ROWS, &[samples, sizes.features])?;
         let labels = tensors.doubles(LABELS, &[samples, sizes.targets])?;

@@ -92,8 +92,7 @@ fn check(training: &TrainingSet<'_>) -> Result<(), ModelError> {
     Err(ModelError::new(
         ErrorKind::InvalidArgument,
         format!(
-            "{samples} training samples, {NAME} needs at least as many as there are features, {features}: smartcore 0.7.0 truncates each \
-                sample to that number of values; set a smaller `size` or `pca`, or use linfa/svr"
+            "{samples} training samples, {NAME} needs at least as many as there are features, {features}: smartcore 0.7.0 truncates each sample to that number of values. Set a smaller `size` or `pca`, or use linfa/svr"
         ),
     ))
 }

@@ -76,7 +76,7 @@ pub(super) fn refuse_twice(
             all.try_for_each(|frames| refuse_same_pictures(table, frames, old, refused))
         }
         Some((row, before)) => Err(refused(format!(
-            "{} repeats row {before} of the dataset, sample `{}`; {} of {} rows are already in it, and no row is added twice",
+            "{} repeats row {before} of the dataset, sample `{}`. {} of {} rows are already in it, and no row is added twice: leave out rows that were added before",
             origin(table, *row, old),
             shown(&table.samples()[*before]),
             twice.len(),
@@ -112,8 +112,7 @@ fn refuse_same_pictures(
         return Ok(());
     }
     Err(refused(format!(
-        "{} has the picture of row {before} of the dataset, sample `{}`, with other labels or another time; {} different pictures are already in the \
-         dataset, and no recording is added twice",
+        "{} has the picture of row {before} of the dataset, sample `{}`, with other labels or another time. {} different pictures are already in the dataset, and no recording is added twice",
         origin(table, *row, old),
         shown(&table.samples()[*before]),
         again.len()

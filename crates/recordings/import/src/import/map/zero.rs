@@ -185,9 +185,7 @@ impl Check<'_> {
         let Some(orientation) = written.orientation else {
             return Err(self.at(
                 offset,
-                "[gravity] needs `orientation`, which decides how the weight of the tool splits into axes; write `orientation = [\"rx\", \
-                 \"ry\", \
-                 \"rz\"]` with `unit`, or four columns of a quaternion x, y, z, w; for a tool that never turns use [zero]",
+                "[gravity] needs `orientation`, which decides how the weight of the tool splits into axes. Write `orientation = [\"rx\", \"ry\", \"rz\"]` with `unit`, or four columns of a quaternion x, y, z, w. For a tool that never turns use [zero]",
             ));
         };
         let columns = orientation.get_ref().iter().cloned();

@@ -112,8 +112,7 @@ impl Reading<'_> {
             Some(first) if *first != self.current => Err(ImportError::path(
                 &inside,
                 format!(
-                    "already the picture of a row of {}: `row` in `pattern` starts anew in each of the {} tables; \
-                     replace `row` by a column that numbers the pictures of all tables, or put `{{path.NAME}}` before it",
+                    "already the picture of a row of {}: `row` in `pattern` starts anew in each of the {} tables. Replace `row` by a column that numbers the pictures of all tables, or put `{{path.NAME}}` before it",
                     shown(&self.folder.inside(first, "")),
                     self.count
                 ),
@@ -141,8 +140,7 @@ impl Reading<'_> {
             return Err(ImportError::path(
                 relative,
                 format!(
-                    "numbers pictures through these files in the order of their names, and {} sorts before {}: the order is ambiguous; \
-                     give their numbers the same count of digits, or name a file for each table by `{{path.NAME}}`",
+                    "numbers pictures through these files in the order of their names, and {} sorts before {}, so the order is ambiguous: give their numbers the same count of digits, or name a file for each table by `{{path.NAME}}`",
                     shown(&self.folder.inside(first, "")),
                     shown(&self.folder.inside(second, ""))
                 ),

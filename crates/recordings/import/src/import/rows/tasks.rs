@@ -134,7 +134,7 @@ impl MappedTable<'_> {
         if (norm - 1.0).abs() > TaskLabel::NORM_TOLERANCE {
             return Err(table_error!(
                 self.place(row),
-                "the quaternion of [task.{}] has the norm {norm}, expected 1 ± 0.000001: normalise it in the file, with seven decimals or more; or name its columns in the order x, y, z, w, now {}",
+                "the quaternion of [task.{}] has the norm {norm}, expected 1 ± 0.000001: normalise it in the file, with seven decimals or more. Or name its columns in the order x, y, z, w, now {}",
                 map.task.name,
                 listed(&map.task.from[3..])
             ));

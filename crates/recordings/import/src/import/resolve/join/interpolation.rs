@@ -132,7 +132,7 @@ impl Gap<'_> {
             }) if (after - before).abs() > *half_turn => {
                 return Err(table_error!(
                     self.table.place(self.rows[1], column),
-                    "{after} follows {before}, more than half a turn of `{channel}`, and `pick = \"linear\"` would invent angles between: for a part of a rotation vector write `rotation = [\"Rx\", \"Ry\", \"Rz\"]` above the first [section] of the map; for one angle that wraps around write `period = {turn}` in `{channel} = {{ … }}`; otherwise write `pick = \"nearest\"` in the join"
+                    "{after} follows {before}, more than half a turn of `{channel}`, and `pick = \"linear\"` would invent angles between. For a part of a rotation vector write `rotation = [\"Rx\", \"Ry\", \"Rz\"]` above the first [section] of the map. For one angle that wraps around write `period = {turn}` in `{channel} = {{ … }}`. Otherwise write `pick = \"nearest\"` in the join"
                 ));
             }
             Some(Way::Classes) if (after - before).abs() > 0.0 => {
