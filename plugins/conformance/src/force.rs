@@ -56,7 +56,7 @@ fn measures(tried: &Subject<'_>) -> Result<(), Unmet> {
             if let Some(most) = facts.force_max.filter(|_| is_force) {
                 expect(value.abs() < most.0, || {
                     format!(
-                        "{name} is {value:.1} N, expected an error at {most} or more; if no such force acts, correct the unit: `taceva rig check --weight` names a mistaken unit"
+                        "the reading {name} = {value:.1} N reaches the full scale of {most}, where the driver must return an error; if no such force acts, `taceva rig check --weight` names a mistaken unit"
                     )
                 })?;
             }

@@ -95,7 +95,7 @@ pub(crate) enum StressPart {
 /// Quantity that severities set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum StressBy {
-    /// The change of the untouched picture, relative to the change by contact
+    /// The change that a fault makes in the picture without contact, relative to the change by contact
     #[default]
     Stimulus,
     /// The parameter of the fault, from a fixed table of parameters

@@ -226,7 +226,7 @@ fn a_device_that_answers_nan_or_saturates_or_stalls_is_caught() {
         (FaultKind::NotANumber, "`Fz` is NaN, expected a number"),
         (
             FaultKind::Saturation,
-            "Fz is 10.0 N, expected an error at 10 N or more",
+            "the reading Fz = 10.0 N reaches the full scale of 10 N, where the driver must return an error",
         ),
         (FaultKind::Silence, "no answer within 1s (timeout)"),
         (

@@ -25,7 +25,7 @@ pub struct Evidence<'a> {
     pub divided: Option<&'a Divided>,
     /// True if the request names the split of `divided`; false for the default split.
     pub is_split_named: bool,
-    /// Division whose test part an evaluation scores: all folds of the default split, or `divided`. `None` without a division.
+    /// Division whose test part an evaluation scores. By default it has all folds; with a named split it equals the field `divided`.
     pub scored: Option<&'a Divided>,
     /// Division that scores each task of the table: its own folds, or `divided` if the request names a split. `None` for a task without classes or folds.
     pub of_tasks: &'a [Option<Divided>],

@@ -187,7 +187,7 @@ fn of_states(states: &[ReadState]) -> Result<EvaluationReport, Stop> {
     as_read(&report)
 }
 
-/// Scores of the tables in `files`, by the plan of the only state, or by the states of the phases of a run.
+/// Computes scores again from the tables in `files`. An evaluation has one state, a run has one for each phase; `states` says which metrics to compute.
 fn of_tables(
     source: &Source,
     files: &StudyFiles,

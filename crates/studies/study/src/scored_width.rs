@@ -137,7 +137,7 @@ impl ScoredWidth {
         Some(self.ratio.powf(factor) - 1.0)
     }
 
-    /// Least number of points with an expected width of at most `width`, with `samples` samples each. `None` if no number up to `most` suffices.
+    /// Least number of contact points for an expected interval width of at most `width`. Each point has `samples` samples. `None` if `most` points do not suffice.
     pub fn needed(&self, width: f64, samples: f64, most: usize) -> Option<usize> {
         let reaches = |points: usize| {
             let expected = self.expected(TestedPoints { points, samples });

@@ -43,7 +43,7 @@ impl Interpreter {
         Ok(spec)
     }
 
-    /// Sets this interpreter and the confinement of `module` in `spec`.
+    /// Makes `spec` start this interpreter, confined as the plugin `module` needs.
     pub(crate) fn confine(&self, spec: &mut ChildSpec, module: &PythonModule) {
         spec.program = Some(self.program().to_owned());
         spec.arguments = arguments(&self.child());

@@ -48,7 +48,7 @@ struct Change {
 const SOFTENING_PER_K: f64 = 0.003;
 /// Loss of light of a lamp per kelvin, a share of its light.
 const DIMMING_PER_K: f64 = 0.004;
-/// Values that state the stiffness of a gel.
+/// Section and key of each parameter that states the stiffness of a gel.
 const STIFFNESS: [(&str, &str); 3] = [
     ("layer", "young_modulus_mpa"),
     ("dome", "skin_n_per_mm"),
@@ -114,12 +114,12 @@ impl GelFault {
     pub const fn parameter(self) -> &'static str {
         match self {
             GelFault::Softening => "share of the stiffness that is lost",
-            GelFault::Hardening => "stiffness that is added, share of the stiffness before",
+            GelFault::Hardening => "added stiffness, share of the original stiffness",
             GelFault::Temperature => "warming, K",
             GelFault::Friction => "share of the friction that is lost",
             GelFault::Shift => "shift along x, mm",
             GelFault::Thickness => "share of the thickness that is lost",
-            GelFault::Gloss => "directed light that is added, share of the directed light before",
+            GelFault::Gloss => "added directed light, share of the original directed light",
             GelFault::Scratches => "number of scratches",
             GelFault::Tear => "radius, share of the width",
             GelFault::Dust => "number of specks",

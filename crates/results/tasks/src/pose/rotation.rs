@@ -44,7 +44,7 @@ impl Rotation {
             .ok_or(PoseError::Norm { row, norm })
     }
 
-    /// Rotation by the matrix with the rows `rows`, of row `row` of the file.
+    /// Rotation of a 3×3 matrix, given by rows. `row` is the row of the file for errors.
     ///
     /// # Errors
     /// [`PoseError::NoRotation`] unless the columns are unit vectors at right angles within 1e-6;

@@ -6,7 +6,7 @@ use crate::fault::{Effect, Fault, Scope};
 pub(super) static FAULT: Fault = Fault {
     id: "exposure_high",
     title: "the whole picture is brighter, and clipped at full scale",
-    parameter: "light that is added, share of the light before",
+    parameter: "added light, share of the original light",
     scope: Scope::Fixed,
     table: [0.1, 0.25, 0.5, 1.0, 2.0],
     most: 15.0,

@@ -63,7 +63,7 @@ impl ClassNames {
                 }
                 if found.len() > MOST_CLASSES {
                     let expected = format!(
-                        "class {} of column `{}`, expected at most {MOST_CLASSES}: state them with --task {}=KIND:names=A|B, or name another column",
+                        "column `{1}` has {0} classes or more, expected at most {MOST_CLASSES}: state the classes with --task {2}=KIND:names=A|B, or name another column",
                         found.len(),
                         shown(&task.name),
                         shown(&task.name)
