@@ -60,7 +60,10 @@ impl Schema {
     }
 }
 
-#[expect(unsafe_code, reason = "this is a callback of the Arrow C data interface")]
+#[expect(
+    unsafe_code,
+    reason = "this is a callback of the Arrow C data interface"
+)]
 unsafe extern "C" fn release_schema(schema: *mut Schema) {
     // SAFETY: a reader calls it once, with the struct that `Schema::new` filled or a copy of it. The children are our boxes; children that the reader
     // has moved out have no `release`.
@@ -141,7 +144,10 @@ impl Array {
     }
 }
 
-#[expect(unsafe_code, reason = "this is a callback of the Arrow C data interface")]
+#[expect(
+    unsafe_code,
+    reason = "this is a callback of the Arrow C data interface"
+)]
 unsafe extern "C" fn release_array(array: *mut Array) {
     // SAFETY: as for `release_schema`.
     unsafe {
@@ -204,7 +210,10 @@ impl Stream {
 unsafe impl Send for Stream {}
 
 impl Drop for Stream {
-    #[expect(unsafe_code, reason = "this is a callback of the Arrow C data interface")]
+    #[expect(
+        unsafe_code,
+        reason = "this is a callback of the Arrow C data interface"
+    )]
     fn drop(&mut self) {
         if let Some(release) = self.release {
             // SAFETY: the stream was not moved out, because that clears `release`.
@@ -213,7 +222,10 @@ impl Drop for Stream {
     }
 }
 
-#[expect(unsafe_code, reason = "this is a callback of the Arrow C data interface")]
+#[expect(
+    unsafe_code,
+    reason = "this is a callback of the Arrow C data interface"
+)]
 unsafe extern "C" fn get_schema(stream: *mut Stream, into: *mut Schema) -> c_int {
     // SAFETY: a reader passes a stream that it has not released, and a struct to fill.
     unsafe {
@@ -233,7 +245,10 @@ unsafe extern "C" fn get_schema(stream: *mut Stream, into: *mut Schema) -> c_int
     0
 }
 
-#[expect(unsafe_code, reason = "this is a callback of the Arrow C data interface")]
+#[expect(
+    unsafe_code,
+    reason = "this is a callback of the Arrow C data interface"
+)]
 unsafe extern "C" fn get_next(stream: *mut Stream, into: *mut Array) -> c_int {
     // SAFETY: as for `get_schema`.
     unsafe {
@@ -258,13 +273,19 @@ unsafe extern "C" fn get_next(stream: *mut Stream, into: *mut Array) -> c_int {
     0
 }
 
-#[expect(unsafe_code, reason = "this is a callback of the Arrow C data interface")]
+#[expect(
+    unsafe_code,
+    reason = "this is a callback of the Arrow C data interface"
+)]
 unsafe extern "C" fn get_last_error(_stream: *mut Stream) -> *const c_char {
     // No call fails, because all values are in memory.
     ptr::null()
 }
 
-#[expect(unsafe_code, reason = "this is a callback of the Arrow C data interface")]
+#[expect(
+    unsafe_code,
+    reason = "this is a callback of the Arrow C data interface"
+)]
 unsafe extern "C" fn release_stream(stream: *mut Stream) {
     // SAFETY: a reader calls it once, with the struct that `stream` filled or a copy of it.
     unsafe {

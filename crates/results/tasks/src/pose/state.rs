@@ -140,7 +140,9 @@ impl TryFrom<Stored> for PoseState {
                 sum = TaskError::checked_count(sum, *count)?;
             }
             if bins.len() != known.len() || !bins.is_empty() && sum != n {
-                return Err(TaskError::damaged("the bins of the state differ from those of the task"));
+                return Err(TaskError::damaged(
+                    "the bins of the state differ from those of the task",
+                ));
             }
         }
         let is_right = |totals: &PoseTotals| {

@@ -44,8 +44,14 @@ fn a_stored_state_of_poses_that_no_samples_give_is_refused() {
     assert!(damaged("/clusters/a/1", json!([1, 1])).contains("expected 7 sums and 4 counts"));
     assert!(damaged("/clusters/a/1/1", json!(2)).contains("more right bins than poses"));
     assert!(damaged("/still/1/0", json!(2)).contains("another number of poses"));
-    assert!(damaged("/bins/0/0", json!(1)).contains("the bins of the state differ from those of the task"));
-    assert!(damaged("/bins/2", json!([1])).contains("the bins of the state differ from those of the task"));
+    assert!(
+        damaged("/bins/0/0", json!(1))
+            .contains("the bins of the state differ from those of the task")
+    );
+    assert!(
+        damaged("/bins/2", json!([1]))
+            .contains("the bins of the state differ from those of the task")
+    );
     assert!(damaged("/clusters/a/1/0", json!(1_u64 << 60)).contains("2^53"));
 }
 
