@@ -259,7 +259,7 @@ fn authors_organization_and_licence_that_no_command_states_are_damage() {
     let address = format!("https://{}", "x".repeat(1000));
     for (place, value, problem) in [
         ("/authors", crowd, "1001 authors"),
-        ("/authors", twice, "author 2: the ORCID of an earlier"),
+        ("/authors", twice, "author 2 has the ORCID of an earlier"),
         ("/authors/0/name", json!("a\u{1b}[2J"), "author 1: "),
         ("/authors/0/orcid", json!("x".repeat(1000)), "author 1: "),
         ("/organization/name", json!(""), "organization: "),
