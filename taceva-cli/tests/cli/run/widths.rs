@@ -201,7 +201,7 @@ fn the_results_of_a_run_belong_to_the_studies_of_the_same_name_and_unit_in_any_o
     let said = planned(&bench, "other.toml --from r");
     assert!(said.contains("width: vitactip: mae.Fz: "), "{said}");
     assert!(
-        said.contains("width: magictac: not predicted, because the earlier run has no result of this study on unit 2, only `vitactip` on unit 0, 1; `magictac` on unit 0, 1"),
+        said.contains("width: magictac: not predicted, because the earlier run has no result of this study on unit 2, only of `vitactip` on unit 0, 1; `magictac` on unit 0, 1"),
         "{said}"
     );
 }

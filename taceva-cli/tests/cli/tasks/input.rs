@@ -236,7 +236,7 @@ fn the_help_lists_every_option_that_a_task_refuses() {
     slip(&bench);
     let help = bench.ok("score --help");
     let help: String = help.split_whitespace().collect::<Vec<_>>().join(" ");
-    let listed = help.split("as options of channels: ").nth(1);
+    let listed = help.split("Refused with --task: ").nth(1);
     let listed = listed.expect("a list").split(" --cluster").next();
     let listed = listed.expect("a list");
     let of_task: Vec<&str> = listed.split(", ").collect();
