@@ -138,7 +138,7 @@ no_frame!(a_frame_larger_than_declared: ["TOLD_WIDTH=4000000000u"], Protocol, "4
 no_frame!(a_frame_whose_length_overflows: ["TOLD_LENGTH=UINT64_MAX"], Protocol, "in 18446744073709551615 bytes, expected 144");
 no_frame!(a_frame_of_an_unknown_format: ["FORMAT=77"], Unsupported, "pixel format 77");
 no_frame!(a_frame_without_pixels: ["NO_DATA"], Protocol, "data pointer is NULL");
-no_frame!(a_frame_elsewhere_that_is_not_lent: ["NO_RELEASE"], Abi, "it has no `release`");
+no_frame!(a_frame_elsewhere_that_is_not_lent: ["NO_RELEASE"], Abi, "has no `release`");
 no_frame!(a_status_that_is_none: ["STATUS=5"], Abi, "unknown status 5");
 no_frame!(a_fault_of_the_device: ["STATUS=TACEVA_DEVICE_FAULT"], DeviceFault, "as it was told to");
 

@@ -64,6 +64,6 @@ fn folds_count_the_samples_for_which_no_group_is_named() {
         "ridge",
         Some("cv:5 by-column:unit_id"),
     ));
-    let counted = "; 6 of 72 samples are left out: no group is named for them; name one in the table, and import it again";
+    let counted = "; 6 of 72 samples are left out: no group is named for them; name one in the table, and import the table again";
     assert!(found.contains(counted), "{found}");
 }
