@@ -204,7 +204,7 @@ pub(crate) fn keeps_deadlines<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Resul
     )))
 }
 
-/// Waits `given` for the next item. Returns the duration of the call, whether an item came or not.
+/// Waits for the next item, at most for the duration `given`. Returns the duration of the call, whether an item came or not.
 fn wait<D: Stream + ?Sized>(
     tried: &Tried<'_, D>,
     device: &mut D,
