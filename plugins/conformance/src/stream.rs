@@ -15,7 +15,7 @@ const SHORT_CALLS: usize = 10;
 const LATE_CALLS: usize = 8;
 /// Deadline of a short call.
 const SHORT: Duration = Duration::from_millis(5);
-/// Number of series. One series must be in time, because other programs may delay the others.
+/// Number of series. One series must be in time, because other programs may delay the other series.
 const SERIES: usize = 3;
 
 /// Device that delivers a sequence of items once started, such as frames.
