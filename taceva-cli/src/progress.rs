@@ -88,7 +88,7 @@ impl Pace {
         }
     }
 
-    /// Adds `steps` to the count. Returns a line if it is time to print one.
+    /// Adds `steps` to the count. Returns a line if it is time to print a line.
     fn advance(&mut self, steps: u64, now: Instant) -> Option<String> {
         self.done = self.done.saturating_add(steps);
         if now.duration_since(self.said) < EVERY {

@@ -15,7 +15,7 @@ pub use value::ArgValue;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// Arguments of one driver, checked against the driver's declarations. An omitted argument has its default, if it declares one.
+/// Arguments of one driver, checked against the driver's declarations. An omitted argument has its declared default, if any.
 ///
 /// ```
 /// use taceva_core::{ArgSpec, ArgValue, Args};

@@ -95,7 +95,7 @@ impl<A: SampleSink, B: SampleSink> SampleSink for Tee<A, B> {
     }
 }
 
-/// A sink that requests only some of the fields that an inner sink reads, and empties the others.
+/// A sink that requests only some of the fields that an inner sink reads, and empties the other fields.
 ///
 /// ```
 /// # use taceva_core::{FieldSet, SampleSink, SinkError};

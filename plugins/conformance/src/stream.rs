@@ -15,7 +15,7 @@ const SHORT_CALLS: usize = 10;
 const LATE_CALLS: usize = 8;
 /// Deadline of a short call.
 const SHORT: Duration = Duration::from_millis(5);
-/// Number of series. One series must be in time, because other programs may delay the others.
+/// Number of series. One series must be in time, because other programs may delay the other series.
 const SERIES: usize = 3;
 
 /// Device that delivers a sequence of items once started, such as frames.
@@ -204,7 +204,7 @@ pub(crate) fn keeps_deadlines<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Resul
     )))
 }
 
-/// Waits `given` for the next item. Returns the duration of the call, whether an item came or not.
+/// Waits for the next item, at most for the duration `given`. Returns the duration of the call, whether an item came or not.
 fn wait<D: Stream + ?Sized>(
     tried: &Tried<'_, D>,
     device: &mut D,

@@ -226,7 +226,7 @@ impl Searching {
         }
     }
 
-    /// Manifest in `folder`; without one, the manifests in its subfolders, sorted by path.
+    /// Manifest in `folder`; without this manifest, the manifests in the subfolders, sorted by path.
     fn manifests(&mut self, folder: &Path) -> Result<Vec<PathBuf>, Reason> {
         if !folder.is_absolute() {
             return Err(Reason::Relative);

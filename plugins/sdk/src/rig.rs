@@ -1,4 +1,4 @@
-//! Rigs: objects that several devices share, and the simulated bench of a plugin that has one.
+//! Rigs: objects that several devices share, and the simulated bench of a plugin with a bench.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 

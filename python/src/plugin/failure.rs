@@ -36,7 +36,7 @@ pub(super) fn device_error(
     }
 }
 
-/// Reason why a device stopped itself, if the exception names one.
+/// Reason why a device stopped itself, if the exception names a reason.
 fn fault(py: Python<'_>, error: &PyErr) -> Option<Fault> {
     let named = error.value(py).getattr("fault").ok()?;
     let named: String = named.extract().ok()?;

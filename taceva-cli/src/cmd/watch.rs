@@ -173,7 +173,7 @@ struct Watched {
     has_force: bool,
     /// Normal force of the newest reading, N; `None` before the first reading.
     normal_n: Option<f64>,
-    /// Number of further untouched pictures that are not watched, because the gel recovers.
+    /// Number of next untouched pictures to skip, because the gel is still recovering from a contact.
     recovering: u32,
     /// Number of remaining pictures; `None` to continue until Ctrl-C.
     left: Option<u64>,

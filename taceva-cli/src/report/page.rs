@@ -201,7 +201,7 @@ impl Page {
         self.write_devices(folder)
     }
 
-    /// Writes the devices of measured recordings into `folder`, if a recording states one.
+    /// Writes the devices of measured recordings into `folder`, if a recording states a device.
     fn write_devices(&self, folder: &Path) -> anyhow::Result<()> {
         let Some(table) = device_table(&self.studies) else {
             return Ok(());

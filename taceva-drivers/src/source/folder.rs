@@ -34,7 +34,7 @@ pub struct FolderSource {
 }
 
 impl FolderSource {
-    /// Opens the frames in `folder`. Reads the table of times, if there is one, and the first frame.
+    /// Opens the frames in `folder`. Reads the first frame, and the table of times if it exists.
     ///
     /// # Errors
     /// [`SourceError`] if the folder is missing or empty, its first frame is damaged, or the table does not match.

@@ -134,7 +134,7 @@ impl BlockSums {
         true
     }
 
-    /// Adds a block with strays, pairs that do not fit the grids: the strays one by one, the others as a block.
+    /// Adds a block with strays, pairs that do not fit the grids: the strays one by one, and the other pairs as a block.
     #[cold]
     #[inline(never)]
     fn add_strays_apart(&mut self, pairs: Paired<&[f64]>) {

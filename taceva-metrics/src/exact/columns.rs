@@ -114,7 +114,7 @@ impl ColumnAdder {
         true
     }
 
-    /// Adds a block with strays, rows that do not fit the grids: the strays one by one, the others as a block.
+    /// Adds a block with strays, rows that do not fit the grids: the strays one by one, and the other rows as a block.
     #[cold]
     #[inline(never)]
     fn add_strays_apart(&mut self, block: &[&[f64]], into: &mut impl ColumnSums) {

@@ -80,7 +80,7 @@ impl<V: Vector> GridSum<V> {
         }
     }
 
-    /// Adds a value that is zero, or whose exponent is at most `REACH` below the top of the grid.
+    /// Adds a value that is zero, or whose exponent is at most `REACH` below `Grid::top`. `one` is 1 in each lane, as for `plus_aside`.
     #[inline(always)]
     pub(super) fn add(&mut self, value: V, one: V) {
         let next = self.coarse.plus(value);

@@ -21,7 +21,7 @@ pub(super) struct Block<'a> {
     /// Pairs of the next block, prefetched while this block is summed.
     pub(super) next: Paired<&'a [f64]>,
     pub(super) streams: Streams,
-    /// Least magnitude of the truth of a pair in the gated sum; `None` without a gated sum.
+    /// Threshold of the gated sum, which takes pairs whose truth has at least this magnitude; `None` without a gated sum.
     pub(super) gate: Option<f64>,
     pub(super) grids: Grids,
     pub(super) bounds: Bounds,

@@ -6,7 +6,7 @@ use super::bounds::Bounds;
 use super::kernel::BLOCK_ROWS;
 use crate::pair::Paired;
 
-/// Rows of a block. The rows that fit the grids come first, then the others, the strays.
+/// Rows of a block. The rows that fit the grids come first, and then the other rows, the strays.
 pub(super) struct Parts {
     estimate: [f64; BLOCK_ROWS],
     reference: [f64; BLOCK_ROWS],

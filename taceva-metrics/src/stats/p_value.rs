@@ -1,4 +1,4 @@
-//! P values as text, in one form for every output.
+//! P values as text, in the same notation in every output.
 
 /// Least p value with digits of its own.
 const LEAST: f64 = 0.001;

@@ -29,7 +29,7 @@ use crate::training::fit::{Chosen, ModelEstimator, ModelFit, estimator};
 use crate::training::info::ModelInfo;
 use crate::training::problem::Problem;
 
-/// Tries models, the cheapest first, and chooses one.
+/// Tries models, the cheapest first, and chooses the best.
 ///
 /// The training part is divided into five folds of whole groups, or of consecutive samples. A trial learns from three folds, chooses settings on the
 /// fourth and computes its error on the fifth. All models are tried on the first fold. The small network first trains for a quarter of its epochs,

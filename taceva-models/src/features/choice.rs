@@ -20,7 +20,7 @@ pub struct OpenFeatures {
 }
 
 impl OpenFeatures {
-    /// Separates the settings `size=auto` and `difference=auto` from all others. `None` if there is neither.
+    /// Separates the settings `size=auto` and `difference=auto` from all other settings. `None` if neither setting is given.
     pub fn of(settings: &ModelSettings) -> Option<(OpenFeatures, ModelSettings)> {
         let is_open = |key: &str| settings.get(key) == Some(CHOSEN);
         let open = OpenFeatures {
@@ -202,7 +202,7 @@ impl FeatureChoice {
     }
 }
 
-/// Mean loss over the samples of each group, in ascending order of group numbers. A large group thus counts no more than a small one.
+/// Mean loss over the samples of each group, in ascending order of group numbers. A large group thus counts no more than a small group.
 fn of_groups(losses: &[f64], groups: &[usize]) -> Vec<f64> {
     let mut sums = BTreeMap::<usize, (f64, f64)>::new();
     for (loss, group) in losses.iter().zip(groups) {

@@ -19,7 +19,7 @@ pub enum FeatureKind {
     Gradients,
     /// Mean, standard deviation and quantiles of the pixels in the cell. The positions of the pixels within the cell do not matter.
     Statistics,
-    /// Readings of taxels, for sensors without pictures. Each taxel is a cell. This kind cannot be combined with others.
+    /// Readings of taxels, for sensors without pictures. Each taxel is a cell. This kind cannot be combined with other kinds.
     Signals,
 }
 
@@ -93,7 +93,7 @@ impl FeatureKinds {
     /// Set that contains only [`FeatureKind::Signals`]. Other kinds cannot be added.
     pub const SIGNALS: FeatureKinds = FeatureKinds(FeatureKind::Signals.bit());
 
-    /// Parses names of kinds joined by `+`. `None` if a kind is unknown or repeated, or if signals are combined with others.
+    /// Parses names of kinds joined by `+`. `None` if a kind is unknown or repeated, or if signals are combined with other kinds.
     pub fn parse(text: &str) -> Option<FeatureKinds> {
         let mut kinds = FeatureKinds(0);
         for word in text.split('+') {

@@ -13,7 +13,7 @@ pub struct CloserFeatures<'a> {
     pub spec: FeatureSpec,
     /// Features of the training part, by sample.
     pub training: &'a Features,
-    /// Features of the validation part, if there is one.
+    /// Features of the validation part, if it exists.
     pub validation: Option<&'a Features>,
 }
 

@@ -32,7 +32,7 @@ pub struct Checkpoints {
 pub enum Foreign {
     /// Keeps the file, and the training fails with an error.
     Refuse,
-    /// Starts the training anew, and overwrites the file at the next checkpoint.
+    /// Starts the training from the beginning, and overwrites the file at the next checkpoint.
     Replace,
 }
 

@@ -32,9 +32,9 @@ pub(crate) struct Round {
 }
 
 impl<'a> Trials<'a> {
-    /// Holds out the validation part in a single round if there is one. Otherwise holds out each group of the training part once. More than ten
-    /// groups are combined in ten folds. Without groups, ten runs of neighbouring samples are held out. If no setting is to be chosen, only a
-    /// validation part is held out.
+    /// Holds out the validation part, if one exists, in a single round. Otherwise holds out each group of the training part once. More than ten
+    /// groups are combined in ten folds. Without groups, ten runs of neighbouring samples are held out. If no setting is to be chosen and no
+    /// validation part exists, nothing is held out.
     pub(crate) fn new(
         problem: &Problem<'a>,
         validation: Option<&Validation<'_>>,

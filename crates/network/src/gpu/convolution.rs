@@ -26,7 +26,7 @@ pub(crate) struct Convolution<B: Backend> {
 const MOST: usize = 1 << 25;
 
 impl<B: Backend> Convolution<B> {
-    /// Convolution with weights of `shape`, for input pictures whose height and width are `seen`.
+    /// Convolution with weights of `shape`. `seen` is the height and width of the input pictures.
     pub(crate) fn new(
         shape: [usize; 4],
         stride: usize,

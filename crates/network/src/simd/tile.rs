@@ -207,10 +207,10 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         self.sums = sums;
     }
 
-    /// Adds the products of `ROWS` input values of each pixel with the channels of its gradient, pixel after pixel.
+    /// Adds to each row of sums one input value times the gradient channels, for each pixel. A pixel has `ROWS` input values.
     ///
     /// # Panics
-    /// If a pixel exceeds `input` or `gradient`.
+    /// If a pixel is outside `input` or `gradient`.
     #[inline(always)]
     pub(crate) fn add_pixels(&mut self, pixels: &Pixels, input: &[f32], gradient: &[f32]) {
         assert!(

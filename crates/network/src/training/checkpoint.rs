@@ -11,7 +11,7 @@ use crate::error::NetworkError;
 use crate::network::{NamedTensor, Network};
 use crate::samples::Samples;
 
-/// State of a training after a step. A resumed training ends with the same bits as an uninterrupted one.
+/// State of a training after a step. A resumed training ends with the same bits as an uninterrupted training.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checkpoint {
     /// Settings and progress, for a short text file.

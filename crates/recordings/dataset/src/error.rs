@@ -56,7 +56,7 @@ pub enum DatasetError {
         /// Reason why the path is rejected.
         problem: String,
     },
-    /// Image or array of images that is damaged, too large, or differs in size or format from the others.
+    /// Image or array of images that is damaged, too large, or differs in size or format from the other images.
     #[error("{}: {problem}", shown_path(path))]
     Image {
         /// Path of the image.

@@ -25,7 +25,7 @@ const CHAIN: usize = 32;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub(crate) enum RecordKind {
-    /// Facts about the recording. Always the first record, and never a later one.
+    /// Facts about the recording. Always the first record, and never a later record.
     Start = 1,
     /// Single sample.
     Sample = 2,

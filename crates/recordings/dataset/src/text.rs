@@ -17,7 +17,7 @@ pub fn shown_path(path: &Path) -> String {
     taceva_core::shown(path).to_string()
 }
 
-/// List of names for a message: the first few names, then the number of the others.
+/// List of names for a message: the first few names, then the number of further names.
 pub fn listed(names: &[String]) -> String {
     const LISTED: usize = 64;
     let shown: Vec<String> = names.iter().map(|name| shown(name)).collect();

@@ -34,10 +34,10 @@ pub enum ImportError {
     /// Error of a dataset, of the map or of a source file.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
-    /// Error of a path or an image, with the location where it is named.
+    /// Error of a path or an image, with the place in a source file that names the path or image.
     #[error("{}", named(place, error))]
     Named {
-        /// Location where the path or image is named.
+        /// Place in a source file that names the path or image.
         place: Box<Place>,
         /// Error of the path or image.
         error: Box<DatasetError>,

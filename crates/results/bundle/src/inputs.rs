@@ -43,10 +43,10 @@ pub(crate) struct StudyInputs {
     pub(crate) states: Vec<PathBuf>,
     pub(crate) tables: Option<ScoredTables>,
     pub(crate) samples: Option<PathBuf>,
-    /// Digest of the model file, if the results name one.
+    /// Digest of the model file, if the results name a model file.
     pub(crate) model_digest: Option<String>,
     pub(crate) model: Option<PathBuf>,
-    /// Digest of the recording behind predictions, if the results name one.
+    /// Digest of the recording behind predictions, if the results name a recording.
     pub(crate) dataset_digest: Option<String>,
     /// Recordings with the pictures behind the predictions, if they are added.
     pub(crate) frames: Vec<PredictionFiles>,

@@ -47,7 +47,7 @@ pub(crate) fn noun(studies: &[Study]) -> &'static str {
     }
 }
 
-/// True if each study has a name by `of`, and no two studies share one.
+/// True if each study has a name by `of`, and no two studies share a name.
 fn are_distinct(studies: &[Study], of: fn(&Study) -> Option<&str>) -> bool {
     let named: Option<BTreeSet<&str>> = studies.iter().map(of).collect();
     named.is_some_and(|named| named.len() == studies.len())

@@ -199,7 +199,8 @@ impl Study {
         }
     }
 
-    /// Sample that contributes most of the squared error of `score`, if the model has no shown skill. `None` for angles, whose errors may wrap.
+    /// Sample that makes a quarter or more of the squared error of `score`, if the model is not shown to have skill. `None` for angles, whose
+    /// errors may wrap.
     pub(crate) fn dominant(&self, score: &Score) -> Option<DominantSample> {
         let mae = self.score("mae", &score.channel);
         let is_angle = mae.is_some_and(|mae| matches!(mae.unit, Unit::Degree | Unit::Radian));

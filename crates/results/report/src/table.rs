@@ -53,7 +53,7 @@ pub struct Row {
     pub cells: Vec<Cell>,
     /// Better direction of this row, for a column of [`Direction::OfRows`]; `None` for no direction.
     pub better: Option<Better>,
-    /// True if LaTeX separates this row from the previous one.
+    /// True if LaTeX separates this row from the previous row.
     pub begins_group: bool,
     /// Heading above this row, only in LaTeX, such as the metric of the following rows.
     pub heading: Option<Words>,

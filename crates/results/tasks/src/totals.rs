@@ -100,7 +100,7 @@ struct Without<'a, const SUMS: usize, const COUNTS: usize> {
     rest: Totals<SUMS, COUNTS>,
 }
 
-/// Totals of all clusters, and for each cluster the totals of all others.
+/// Totals of all clusters, and for each cluster the totals of all other clusters.
 #[derive(Debug)]
 pub(crate) struct LeaveOneOut<'a, const SUMS: usize, const COUNTS: usize> {
     total: Totals<SUMS, COUNTS>,

@@ -1,4 +1,4 @@
-//! Significance tests of each chosen configuration against the others. All tests of the sweep form one family.
+//! Significance tests of each chosen configuration against the other configurations. All tests of the sweep form one family.
 
 #[cfg(test)]
 mod example_groups;

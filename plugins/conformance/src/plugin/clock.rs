@@ -24,7 +24,7 @@ pub(super) const CHECKS: &[Check] = &[
 /// Least duration of one comparison of stamps for their unit. A comparison also needs at least `COMPARED_MIN` items.
 const COMPARED: Duration = Duration::from_millis(250);
 const COMPARED_MIN: usize = 4;
-/// Greatest number of comparisons. One comparison must agree, because a busy machine may delay items in the others.
+/// Greatest number of comparisons. One comparison must agree, because a busy machine may delay items in the other comparisons.
 const COMPARISONS: usize = 4;
 /// Duration between two comparisons of the rate, duration from the first item to the last comparison, and least number of items of a comparison.
 const RATED: Duration = Duration::from_secs(2);
@@ -94,7 +94,7 @@ fn arrival<D: Stream + ?Sized>(tried: &Tried<'_, D>, device: &mut D) -> Result<A
     Ok(Arrival { now_s, valid_s })
 }
 
-/// The rate of the stamps differs from 1 by at most [`DEVIATION_MAX`] in one of several comparisons, each longer than the previous one.
+/// The rate of the stamps differs from 1 by at most [`DEVIATION_MAX`] in one of several comparisons, each longer than the previous comparison.
 fn keeps_rate<D: Stream + ?Sized>(tried: &Tried<'_, D>, device: &mut D) -> Result<(), Unmet> {
     let begun = Instant::now();
     let mut due = RATED;

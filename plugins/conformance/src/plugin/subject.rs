@@ -88,7 +88,7 @@ impl Subject {
         }
     }
 
-    /// Arguments for opening the device: the given arguments, and the declared defaults of all others.
+    /// Arguments for opening the device: the given arguments, and the declared defaults of all other arguments.
     pub(super) fn args(&self) -> Result<Args, Unmet> {
         let args = Args::parse(self.entry()?.arguments(), &self.probe.arguments);
         args.map_err(|error| {

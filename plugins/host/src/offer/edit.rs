@@ -210,7 +210,7 @@ fn needs(manifest: &mut DocumentMut, said: &[String]) {
     }
 }
 
-/// Adds the library of this platform if it is missing. Updates its digest if the manifest has one.
+/// Adds the library of this platform if it is missing. Updates the digest of the library if the manifest has a digest.
 fn library_of(manifest: &mut DocumentMut, library: &LibraryFile) {
     let platform = platform();
     let tables = manifest

@@ -1,4 +1,4 @@
-//! Functions with which the host calls a changer.
+//! Functions with which the host calls a changer of specimens or units.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 

@@ -33,7 +33,7 @@ impl Touch {
         self.deepest_mm
     }
 
-    /// Advances to the position of the tip `step_s` later. Returns true if the tip is in the gel.
+    /// Advances the state of the gel by `step_s`, to the tip position `tip_mm`. Returns true if the tip is in the gel.
     pub(super) fn follow(
         &mut self,
         bench: &Bench,

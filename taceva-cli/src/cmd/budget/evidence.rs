@@ -228,7 +228,7 @@ impl Found {
         Ok(figure)
     }
 
-    /// Score of the channel. Uses the variant that decides verdicts, if there is one.
+    /// Score of the channel. If a variant decides verdicts, the score of this variant.
     fn score(&self, metric: &str, channel: &Channel) -> Result<Score, String> {
         let Some(score) = self.report.score(metric, &channel.name) else {
             let what = format!("metric:{metric}");

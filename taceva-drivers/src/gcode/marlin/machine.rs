@@ -182,7 +182,7 @@ impl Printer {
         Err(refused(CommandError::Refused { command, why }))
     }
 
-    /// Queries the position of the tip. A printer at rest reports the current position, and a moving printer the planned one.
+    /// Queries the position of the tip. A printer at rest reports the current position, and a moving printer reports the planned position.
     pub(super) fn look(&mut self, patience: Duration) -> Result<Seen<Place>, DriverError> {
         let after = self.link.statuses().posted();
         let patience = patience.max(GLANCE);

@@ -14,9 +14,9 @@ use super::firmware::Firmware;
 
 /// Timeout for the confirmation of a stop. Afterwards the stop is also sent over the connection for motions.
 const CONFIRMATION: Duration = Duration::from_millis(40);
-/// Interval between tests of a stop connection that answers.
+/// Interval between tests of the stop connection while it answers.
 const TRIAL_EVERY: Duration = Duration::from_millis(500);
-/// Interval between tests of a stop connection that does not answer. No motion begins until the connection answers.
+/// Interval between tests of the stop connection while it does not answer. During this time no motion begins.
 const RETRIAL_EVERY: Duration = Duration::from_millis(50);
 const TRIAL_PATIENCE: Duration = Duration::from_millis(20);
 /// Time after which an unanswered stop on an abandoned connection counts as lost. A run tries for longer than this to end a halt.

@@ -25,7 +25,7 @@ pub struct NetworkRegressor {
     channels: Channels,
     card: NetworkCard,
     network: Network,
-    /// Idle predictors with their buffers, kept for reuse. A call of `predict` takes one, or builds a new one if none is idle.
+    /// Idle predictors with their buffers, kept for reuse. A call of `predict` takes an idle predictor, or builds a new predictor if none is idle.
     spare: Mutex<Vec<Predictor>>,
 }
 

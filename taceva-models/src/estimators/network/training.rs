@@ -61,7 +61,7 @@ impl<'a> Training<'a> {
         })
     }
 
-    /// Resumes the training from its checkpoint, or starts a new one. Returns the stage name for progress reports, and the trainer.
+    /// Resumes the training from its checkpoint, or starts a new training. Returns the stage name for progress reports, and the trainer.
     fn begin(&self, shelf: Option<&Shelf<'_>>) -> Result<(&'static str, Trainer<'a>), ModelError> {
         let (samples, validation) = (self.samples, self.validation);
         let found = shelf.map(Shelf::take).transpose()?.flatten();

@@ -22,16 +22,16 @@ pub(super) fn dataspace(shape: &[u64]) -> Vec<u8> {
     message
 }
 
-/// Texts of attributes in a collection of the global heap. HDF5 libraries thus read the attributes as texts and not as bytes.
+/// Global heap collection of HDF5: a header, then one object for each text of an attribute. HDF5 libraries thus read texts and not bytes.
 #[derive(Debug, Default)]
 pub(super) struct Heap {
     objects: Vec<u8>,
     pub(super) count: u16,
 }
 
-/// Size of the header of a collection, bytes. The header of an object in a collection has the same size.
+/// Size of the header of a heap collection, bytes. The header of an object in the collection has the same size.
 const HEAP_HEADER: usize = 16;
-/// Minimum size of a collection, bytes.
+/// Minimum size of a heap collection, bytes.
 const HEAP_LEAST: usize = 4096;
 
 impl Heap {

@@ -18,7 +18,7 @@ pub(super) struct Schema {
 #[derive(Clone, Debug)]
 pub(super) struct Field {
     pub(super) name: String,
-    /// Index of the first buffer of the field. This is the validity buffer if the field has one.
+    /// Index of the first buffer of the field. This is the validity buffer if the field has a validity buffer.
     pub(super) buffer: usize,
     pub(super) kind: FieldKind,
 }

@@ -1,4 +1,4 @@
-//! Reader of the cells of bytes of a row group. Pages in the encoding `PLAIN` are streamed, and others are decoded as a whole.
+//! Reader of cells that hold bytes, in one row group. Pages in the encoding `PLAIN` are streamed, and other pages are decoded as a whole.
 
 use parquet::file::metadata::RowGroupMetaData;
 
@@ -9,7 +9,7 @@ use crate::cell::Cell;
 use crate::error::TableError;
 use crate::source::Source;
 
-/// Reader of the cells of bytes of a row group, one after another.
+/// Reader of cells that hold bytes, in one row group, one cell after another.
 pub(super) enum Cells {
     Stream(Box<Stream>),
     Assembly(Assembly),

@@ -1,4 +1,4 @@
-//! Reader of cells of bytes, one at a time, from Parquet pages in the encoding `PLAIN`.
+//! Reader of cells that hold bytes, one at a time, from Parquet pages in the encoding `PLAIN`.
 //!
 //! Some writers put a thousand pictures into one page. Cells of plain pages are therefore read directly from the file or from a streaming decoder. The whole
 //! page is not in memory. Only blocks of snappy and LZ4 are unpacked as a whole.

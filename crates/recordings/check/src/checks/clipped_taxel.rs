@@ -33,7 +33,7 @@ struct End {
     own: ValueCount,
     /// Value of this taxel that is nearest to the end.
     next: f32,
-    /// True if the value is far from all others, such as a code for "nothing measured".
+    /// True if the value is far from all other values, such as a code for "nothing measured".
     is_code: bool,
 }
 

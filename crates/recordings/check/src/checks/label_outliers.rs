@@ -1,4 +1,4 @@
-//! TAC013: isolated labels far from all others.
+//! TAC013: isolated labels far from all other labels.
 
 use taceva_core::shown;
 
@@ -117,7 +117,7 @@ fn numbers_of(evidence: &Evidence<'_>, rows: &[usize]) -> Option<Vec<String>> {
     rows.iter().map(number).collect()
 }
 
-/// Group of values far above all others.
+/// Group of values far above all other values.
 struct Outliers {
     /// Rows of the outliers, ordered by value.
     rows: Vec<usize>,

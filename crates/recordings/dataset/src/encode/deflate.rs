@@ -61,7 +61,7 @@ impl Stream {
     }
 }
 
-/// Blocks of `bytes`. The last block is shorter than the others, and may be empty.
+/// Blocks of `bytes`. The last block is shorter than the other blocks, and may be empty.
 fn blocks(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     let whole = bytes.len() / BLOCK * BLOCK;
     bytes[..whole].chunks(BLOCK).chain([&bytes[whole..]])

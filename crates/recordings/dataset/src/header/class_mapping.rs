@@ -17,7 +17,7 @@ pub struct MappedClass {
     pub name: String,
     /// Name of the source column.
     pub from: String,
-    /// Names of the classes. Long lists are stored as the first names and a digest of the others.
+    /// Names of the classes. Long lists are stored as the first names and a digest of the other names.
     pub names: Vec<String>,
 }
 

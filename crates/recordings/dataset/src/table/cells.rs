@@ -1,4 +1,4 @@
-//! Columns of a table in one form for digests, storage and export.
+//! Columns of a table as cells of one type each, shared by digests, storage and export.
 
 use taceva_core::{Channel, Column, GratingKind, Limit, Nanometre, Phase, Unit};
 

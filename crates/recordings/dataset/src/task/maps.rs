@@ -56,7 +56,7 @@ impl MapFacts {
         Ok(self.length()?.convert(number * self.scale))
     }
 
-    /// Unit of the scaled numbers.
+    /// Unit of the depths, which must be a length.
     pub(crate) fn length(&self) -> Result<SourceUnit, String> {
         let unit = SourceUnit::parse(&self.unit).map_err(|error| error.to_string())?;
         if unit.unit() != Unit::Millimetre {

@@ -55,7 +55,7 @@ pub(super) struct BareClip<'g> {
     pub(super) others: Vec<&'g str>,
 }
 
-/// Maximum number of clips that are opened to find a readable one.
+/// Maximum number of clips that are opened to find a readable clip.
 const OPENED: usize = 16;
 
 /// First clip that can be opened and states the time of each frame, among `groups`. If `asked` is given, only this clip is considered.

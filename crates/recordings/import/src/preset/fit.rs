@@ -193,7 +193,7 @@ fn touchd(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
         .replace("image_{/0}.png", name))
 }
 
-/// Sets the actual column names of `f_t.csv` in the map, and `header` for `stages.csv` if the file has one.
+/// Sets the actual column names of `f_t.csv` in the map, and `header` for `stages.csv` if the file has a header.
 fn poseit(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let path = first(folder, "*/f_t.csv")?;
     let forces = CsvTable::read(&path)?;

@@ -20,7 +20,7 @@ pub(super) const NAME_RULE: &str = "expected at most 40 bytes with Latin letters
 pub(super) struct EntryPlace {
     /// Path in the catalogue: `entries/gelsight.toml`.
     pub(super) path: String,
-    /// Existing text of the entry, or the head of a new entry.
+    /// Existing text of the entry. A new entry has only the keys before its rows.
     pub(super) text: String,
 }
 

@@ -17,9 +17,11 @@ pub(super) struct Table {
 /// Magnitude of a figure in %, or the name of the series that is missing.
 pub(super) type Figure = Result<f64, &'static str>;
 
-/// Standing of figures among limits similar to those of a standard. No class is claimed, because procedure and limits differ from the standard.
+/// Strictest row of a table of limits that all figures meet, or the reason why there is none. The limits are similar to those of a standard.
 ///
-/// This type gets no further variant: figures are within a row, beyond all rows, or incomplete.
+/// No class is claimed, because procedure and limits differ from the standard.
+///
+/// This type gets no further variant: the figures meet a row, exceed all rows, or are incomplete.
 ///
 /// ```
 /// use taceva_metrology::curve::{Indication, IndicationLevel};

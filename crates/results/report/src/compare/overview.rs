@@ -45,7 +45,7 @@ pub struct Decision {
     pub decided_by: Option<String>,
     /// Better direction of the values.
     pub better: Better,
-    /// Position of the study that is significantly better than all others; `None` if there is no such study.
+    /// Position of the study that is significantly better than all other studies; `None` if there is no such study.
     pub winner: Option<usize>,
     /// Positions of the studies with exactly equal best values; empty without a tie.
     pub tied: Vec<usize>,

@@ -67,7 +67,7 @@ fn one(study: &Study, at: usize, name: &str, room: Option<f64>) -> Option<Figure
     })
 }
 
-/// Channels of the sample table, at most nine: positions and forces first, then others.
+/// Channels of the sample table, at most nine: positions and forces first, then other channels.
 fn channels(samples: &Samples) -> Vec<SampleChannel<'_>> {
     let six: Vec<SampleChannel<'_>> = SIX
         .into_iter()

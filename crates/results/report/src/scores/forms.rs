@@ -101,7 +101,7 @@ impl ScoreTable {
         table
     }
 
-    /// Remark that all of several values have, such as a missing interval; `None` if they have different remarks or none.
+    /// Remark that all values share, such as `not better than predicting the mean`. `None` for a single value, different remarks or no remark.
     fn common_remark(&self) -> Option<String> {
         let mut remarks = self.valued().map(ScoreCell::remark);
         let first = remarks.next()??;

@@ -107,7 +107,7 @@ impl Cell {
         }
     }
 
-    /// Exact number behind a rounded one, for programs and for sorting on a page; `None` for other cells.
+    /// Exact number behind a rounded number, for programs and for sorting on a page; `None` for other cells.
     pub(super) fn exact_text(&self) -> Option<&str> {
         match self {
             Cell::Rounded { exact, .. } => Some(exact),

@@ -7,7 +7,8 @@ use taceva_metrics::plane_axes;
 
 use super::{SampleChannel, Samples};
 
-/// Least number of predicted samples for reporting a dominant one. Among fewer samples, one may cause a quarter of the squared error by chance.
+/// Least number of predicted samples for reporting a dominant sample. Among fewer samples, one sample may cause a quarter of the squared error by
+/// chance.
 const LEAST_SAMPLES: usize = 50;
 /// Least share of the summed squared error at which a sample is reported.
 const LEAST_SHARE: f64 = 0.25;

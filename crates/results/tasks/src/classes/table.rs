@@ -200,7 +200,7 @@ impl Confusion<'_> {
         estimate(found, range(found), &parts, of_constant)
     }
 
-    /// Scores with one cluster left out, for each cluster. `value` receives the class counts of this cluster and of all others.
+    /// Scores with one cluster left out, for each cluster. `value` receives the class counts of this cluster and of all other clusters.
     fn left_out(&self, value: impl Fn(&PartMargins, &Margins) -> Score) -> Vec<Part> {
         let mut left = self.all.clone();
         let parts = self.parts.iter().map(|part| {

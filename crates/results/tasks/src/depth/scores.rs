@@ -13,7 +13,7 @@ use crate::score::TaskScore;
 use crate::totals::{LeaveOneOut, error, signed};
 use crate::undefined::Undefined;
 
-/// Totals of all clusters of maps, and for each cluster the totals of all others.
+/// Totals of all clusters of maps, and for each cluster the totals of all other clusters.
 type Clusters<'a> = LeaveOneOut<'a, SUMS, COUNTS>;
 
 /// Error of depth, computed over all pixels and as a mean over maps.

@@ -12,7 +12,7 @@ use crate::score::{ScoreFlag, TaskScore};
 use crate::totals::{LeaveOneOut, error, signed};
 use crate::undefined::Undefined;
 
-/// Totals of all clusters of sequences, and for each cluster the totals of all others.
+/// Totals of all clusters of sequences, and for each cluster the totals of all other clusters.
 type Clusters<'a> = LeaveOneOut<'a, 2, 6>;
 
 impl EventState {

@@ -7,7 +7,7 @@ use crate::score::TaskScore;
 use crate::totals::{LeaveOneOut, error};
 use crate::undefined::Undefined;
 
-/// Totals of all clusters of poses, and for each cluster the totals of all others.
+/// Totals of all clusters of poses, and for each cluster the totals of all other clusters.
 type Clusters<'a> = LeaveOneOut<'a, 7, 4>;
 
 /// Axes along which the errors of translation are scored.

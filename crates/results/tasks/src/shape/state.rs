@@ -25,7 +25,7 @@ const CLOUDS: usize = 0;
 
 /// Totals of the pairs of clouds in one cluster.
 type ShapeTotals = Totals<4, 1>;
-/// Totals of all clusters, and for each cluster the totals of all others.
+/// Totals of all clusters, and for each cluster the totals of all other clusters.
 type Clusters<'a> = LeaveOneOut<'a, 4, 1>;
 /// Function from totals to a value.
 type ValueOf = fn(&ShapeTotals) -> Result<f64, Undefined>;

@@ -43,7 +43,7 @@ struct Named {
     selector: Selector,
     /// Latency in ms, if the rig file states it.
     latency_ms: Option<f64>,
-    /// Certificate, if the rig file has one.
+    /// Certificate, if the rig file has a certificate.
     certificate: Option<Certificate>,
     /// Origin of the selector, for messages: a command-line option or the rig file.
     by: String,

@@ -317,7 +317,7 @@ pub(crate) fn is_untaught(rig: &RigFile, drivers: &Drivers) -> bool {
         && robot.axes.value.to_string() == r#"["x", "y", "z"]"#
 }
 
-/// Rejects a robot with the origin and axes of a new file, because the robot would not move to the gel. Opens no device.
+/// Rejects a robot that was never taught: `origin_mm` and `axes` still have their defaults, which do not describe the gel. Opens no device.
 pub(crate) fn check_taught(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
     match &rig.robot {
         Some(robot) if is_untaught(rig, drivers) => {
