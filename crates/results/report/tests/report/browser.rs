@@ -75,7 +75,7 @@ fn the_page_opens_without_an_error_and_asks_for_nothing() {
     assert_eq!(empty, json!(0));
     assert_eq!(
         browser.evaluate("document.querySelectorAll('figure').length"),
-        json!(18)
+        json!(17)
     );
     let wide = browser.evaluate("document.documentElement.scrollWidth <= innerWidth");
     assert_eq!(wide, json!(true), "nothing leaves the page to the right");

@@ -178,7 +178,7 @@ mod tests {
         ] {
             let said = trip.to_string();
             let expected = format!(
-                "the last {signal} reading is 84 ms old; on a busy machine, stop other programs, and run with `chrt -f 10 taceva run …` if you do not yet"
+                "the last {signal} reading is 84 ms old. On a busy machine, stop other programs, and run with `chrt -f 10 taceva run …` if you do not yet"
             );
             assert!(said.starts_with(&expected), "{said}");
         }

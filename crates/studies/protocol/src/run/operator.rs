@@ -217,7 +217,7 @@ mod tests {
                     height_u_mm: 0.02,
                     force_u_part: 0.05,
                 }),
-                "0.250 ± 0.020 mm higher than in the last session, and the gel is 12.5 ± 5.0 % harder:",
+                "0.250 ± 0.020 mm higher than in the last session, and the gel is 12.5 ± 5.0 % harder. Continue",
             ),
             (
                 Question::Resume(ChangedTouch {
@@ -226,7 +226,7 @@ mod tests {
                     height_u_mm: 0.02,
                     force_u_part: 0.05,
                 }),
-                "0.250 ± 0.020 mm deeper than in the last session, and the gel is 20.7 ± 5.0 % softer:",
+                "0.250 ± 0.020 mm deeper than in the last session, and the gel is 20.7 ± 5.0 % softer. Continue",
             ),
         ] {
             let text = question.to_string();

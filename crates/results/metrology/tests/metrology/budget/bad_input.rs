@@ -52,7 +52,9 @@ fn an_amount_that_would_be_converted_to_another_unit_than_the_results_is_refused
     };
     let said = refusal(&text("nm"), &Evidence::default());
     assert!(
-        said.starts_with("line 8, `u`: `5 nm` is found, expected a number in units"),
+        said.starts_with(
+            "line 8, `u`: `5 nm` is found, expected a number in the unit of the expression"
+        ),
         "{said}"
     );
     let said = refusal(&text("deg"), &Evidence::default());
