@@ -43,6 +43,7 @@ const REPLACED_BUT_IN: &[(&str, &str, &[&str])] = &[
         "formatted",
         &[
             "taceva-conformance",
+            "taceva-drivers",
             "taceva-host",
             "taceva-report",
             "taceva-tests",

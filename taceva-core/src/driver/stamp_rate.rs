@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rate_near_1_is_printed_with_three_decimals_and_a_remedy_for_the_driver() {
+    fn a_rate_near_1_is_formatted_with_three_decimals_and_a_remedy_for_the_driver() {
         for (stamps_s, is_exact) in [(6.0, false), (4.1, false), (4.07, true), (3.93, true)] {
             let rate = StampRate::of(stamps_s, 4.0);
             assert_eq!(rate.is_exact_to(0.02), is_exact, "{rate}");

@@ -294,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn a_magnitude_is_printed_with_three_digits() {
+    fn a_magnitude_is_formatted_with_three_digits() {
         let said = |values: [f64; 3]| {
             let found = magnitude_suspicion(&Channel::FZ, values).expect("no press of a gel");
             found.to_string()
