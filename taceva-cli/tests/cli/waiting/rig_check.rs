@@ -40,7 +40,7 @@ fn a_check_of_a_rig_compares_certificates_with_the_device_the_day_and_their_file
         "force   problem: ",
         &other,
         "warning the certificate D-K-1 of the force transducer was valid until 2021-05-12, but the measurement was made on ",
-        "warning [force.certificate]: `file` is `certificate.pdf`, expected a file beside the rig file: certificate.pdf: no such file",
+        "warning [force.certificate]: `file` is `certificate.pdf`, expected a file beside the rig file (certificate.pdf: no such file)",
     ] {
         assert!(ran.out.contains(part), "no `{part}` in {}", ran.out);
     }
