@@ -16,9 +16,9 @@ pub(super) type DepthTotals = Totals<SUMS, COUNTS>;
 /// Indices of the error sums and counts of an area: all valid pixels, or those with contact in the truth. Error: truth − prediction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Area {
-    /// Index of the sum of absolute errors, mm. The sums of errors and of squared errors follow.
+    /// Index in `sums` of the sum of absolute errors, mm. The sums of errors and of squared errors follow.
     pub(super) sums: usize,
-    /// Index of the number of pixels.
+    /// Index in `counts` of the number of pixels.
     pub(super) pixels: usize,
     /// Index of the greatest absolute error.
     pub(super) greatest: usize,
@@ -37,38 +37,38 @@ pub(super) const CONTACT: Area = Area {
     greatest: 1,
 };
 
-/// Index of the sum of true depth × predicted depth over all valid pixels, mm².
+/// Index in `sums` of the sum of true depth × predicted depth over all valid pixels, mm².
 const TRUTH_BY_PREDICTION: usize = 6;
-/// Index of the sum of squared predicted depths over all valid pixels, mm².
+/// Index in `sums` of the sum of squared predicted depths over all valid pixels, mm².
 const PREDICTIONS: usize = 7;
-/// Index of the sum of the mean absolute errors of maps, mm.
+/// Index in `sums` of the sum of the mean absolute errors of maps, mm.
 pub(super) const MAP_MAE: usize = 8;
-/// Index of the sum of the root mean square errors of maps, mm.
+/// Index in `sums` of the sum of the root mean square errors of maps, mm.
 pub(super) const MAP_RMSE: usize = 9;
-/// Index of the sum of the mean errors of maps, mm.
+/// Index in `sums` of the sum of the mean errors of maps, mm.
 pub(super) const MAP_BIAS: usize = 10;
-/// Index of the sum of the greatest errors of maps, mm.
+/// Index in `sums` of the sum of the greatest errors of maps, mm.
 pub(super) const MAP_MAX: usize = 11;
-/// Index of the sum over maps of the overlap (IoU) of true and predicted contact.
+/// Index in `sums` of the sum over maps of the overlap (IoU) of true and predicted contact.
 pub(super) const MAP_IOU: usize = 12;
-/// Index of the sum of angles between normals, degrees.
+/// Index in `sums` of the sum of angles between normals, degrees.
 pub(super) const ANGLES: usize = 13;
 
-/// Index of the number of maps with a valid pixel.
+/// Index in `counts` of the number of maps with a valid pixel.
 pub(super) const MAPS: usize = 2;
-/// Index of the number of pixels with contact in both maps.
+/// Index in `counts` of the number of pixels with contact in both maps.
 pub(super) const BOTH: usize = 3;
-/// Index of the number of pixels with contact in either map.
+/// Index in `counts` of the number of pixels with contact in either map.
 pub(super) const EITHER: usize = 4;
-/// Index of the number of maps with contact in truth or prediction.
+/// Index in `counts` of the number of maps with contact in truth or prediction.
 pub(super) const CONTACT_MAPS: usize = 5;
-/// Index of the number of pairs of maps with valid pixels and no contact in either map.
+/// Index in `counts` of the number of pairs of maps with valid pixels and no contact in either map.
 pub(super) const EMPTY_MAPS: usize = 6;
-/// Index of the number of normals.
+/// Index in `counts` of the number of normals.
 pub(super) const NORMALS: usize = 7;
-/// Index of the number of pixels with a negative depth.
+/// Index in `counts` of the number of pixels with a negative depth.
 pub(super) const NEGATIVE: usize = 8;
-/// Index of the number of all maps.
+/// Index in `counts` of the number of all maps.
 pub(super) const ALL_MAPS: usize = 9;
 
 /// Totals of one pair of maps, and their greatest errors.

@@ -22,7 +22,7 @@ struct Measure {
     words: &'static str,
     range: fn(Result<f64, Undefined>) -> Range,
     of_pixels: fn(&DepthTotals, Area) -> Option<f64>,
-    /// Index of the sum over maps of each map's error.
+    /// Index in `sums` of the sum over maps of each map's error.
     of_maps: usize,
 }
 

@@ -10,21 +10,21 @@ use crate::clusters::ByCluster;
 use crate::error::TaskError;
 use crate::totals::{Totals, checked_counts};
 
-/// Index of the sum of delays of matched onsets, s.
+/// Index in `sums` of the sum of delays of matched onsets, s.
 pub(super) const DELAYS: usize = 0;
-/// Index of the sum of durations of sequences, s.
+/// Index in `sums` of the sum of durations of sequences, s.
 pub(super) const DURATIONS: usize = 1;
-/// Index of the number of matched onsets.
+/// Index in `counts` of the number of matched onsets.
 pub(super) const MATCHED: usize = 0;
-/// Index of the number of onsets, true and predicted onsets together.
+/// Index in `counts` of the number of onsets, true and predicted onsets together.
 pub(super) const ONSETS: usize = 1;
-/// Index of the number of predicted onsets.
+/// Index in `counts` of the number of predicted onsets.
 pub(super) const PREDICTED: usize = 2;
-/// Index of the number of frames.
+/// Index in `counts` of the number of frames.
 pub(super) const FRAMES: usize = 3;
-/// Index of the number of frames whose score is outside 0 to 1.
+/// Index in `counts` of the number of frames whose score is outside 0 to 1.
 pub(super) const OUTSIDE: usize = 4;
-/// Index of the number of sequences without times.
+/// Index in `counts` of the number of sequences without times.
 pub(super) const UNTIMED: usize = 5;
 
 /// Totals of a cluster of sequences.

@@ -12,15 +12,15 @@ use crate::totals::{LeaveOneOut, Totals, checked_counts, error};
 use crate::undefined::Undefined;
 use crate::vector::GREATEST_MM;
 
-/// Index of the sum of Chamfer distances, each half the sum of both mean distances, mm.
+/// Index in `sums` of the sum of Chamfer distances, each half the sum of both mean distances, mm.
 const HALF_SUM: usize = 0;
-/// Index of the sum of squared Chamfer distances, each the sum of both means of squared distances, mm².
+/// Index in `sums` of the sum of squared Chamfer distances, each the sum of both means of squared distances, mm².
 const SQUARED: usize = 1;
-/// Index of the sum of F scores of distances below the threshold τ.
+/// Index in `sums` of the sum of F scores of distances below the threshold τ.
 const F_STRICT: usize = 2;
-/// Index of the sum of F scores of distances up to the threshold τ.
+/// Index in `sums` of the sum of F scores of distances up to the threshold τ.
 const F_INCLUSIVE: usize = 3;
-/// Index of the number of pairs of clouds.
+/// Index in `counts` of the number of pairs of clouds.
 const CLOUDS: usize = 0;
 
 /// Totals of the pairs of clouds in one cluster.
