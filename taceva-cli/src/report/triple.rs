@@ -75,7 +75,7 @@ fn ninth_decile(mut rows: Vec<(usize, f64)>) -> Option<usize> {
     rows.get(rows.len() * 9 / 10).map(|(row, _)| *row)
 }
 
-/// Maps a value from the range of all pictures, darkest to brightest, to 0 to 255.
+/// Scales the brightness `mean`, so that the darkest value of all pictures becomes 0 and the brightest 255.
 fn stretched(mean: i64, [low, high]: [i64; 2]) -> i64 {
     (mean - low) * 255 / (high - low).max(1)
 }

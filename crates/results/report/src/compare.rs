@@ -183,7 +183,7 @@ struct Pair<'a> {
 /// and interval of an answer.
 ///
 /// If a model was trained several times, the variance of the score between trainings is added to the variance between clusters. Predictions of the
-/// same samples are then compared by Student's t, because signs of clusters do not reflect other trainings.
+/// same samples are then compared by Student's t, because a sign-flip test does not include the variance between trainings.
 ///
 /// If verdicts on a metric use a variant, such as `excess` of `r_spatial`, the answers contain that variant.
 pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {

@@ -163,7 +163,7 @@ pub struct ModelProvenance {
     pub name: String,
     /// Settings of the model, including the settings that the fit chose.
     pub settings: BTreeMap<String, String>,
-    /// Digest of the model file; `unknown` if the caller's program keeps the model.
+    /// Digest of the model file; `unknown` for a model that exists only in the caller's program.
     pub digest: String,
     /// Digest of the training dataset; `unknown` for a model fitted by another program.
     pub fitted_on: String,

@@ -109,7 +109,7 @@ impl Names {
         position.ok_or_else(|| TaskError::unknown_class(row, column, name, &self.names))
     }
 
-    /// Refuses a position beyond the names.
+    /// Rejects a class position that has no name.
     pub(crate) fn check(
         &self,
         row: u64,

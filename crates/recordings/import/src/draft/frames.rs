@@ -87,7 +87,7 @@ fn file_columns<'t>(folder: &SourceFolder, table: &'t SeenTable<'_>) -> Vec<File
     columns.collect()
 }
 
-/// Column whose cells name pictures in the folders of several views, and these folders: `left`, `right`.
+/// Finds the column whose cells name pictures in several folders, one folder for each view. Returns the column and the folders, such as `left` and `right`.
 fn camera_folders<'t>(
     folder: &SourceFolder,
     table: &'t SeenTable<'_>,

@@ -44,9 +44,9 @@ pub(super) enum LikelyScale {
 }
 
 impl LikelyScale {
-    /// Detects predictions that follow the truth, but are about 1000 times or 1/1000 of it. `None` for any other `pairs`.
+    /// Detects predictions that follow the truth, but are about 1000 times as large or 1/1000 as large. `None` for any other `pairs`.
     ///
-    /// Pairs with a zero on either side have no ratio.
+    /// The median ratio ignores pairs in which the truth or the prediction is zero.
     pub(super) fn of(pairs: &[VectorPair]) -> Option<LikelyScale> {
         let ratios = pairs
             .iter()
