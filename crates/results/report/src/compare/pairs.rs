@@ -12,15 +12,15 @@ use taceva_results::{Interval, SampleChannel, Samples, Score};
 
 /// Compares mean absolute errors in pairs, or returns the reason why this is impossible.
 ///
-/// Pairing requires three conditions. Both results name the same truth, or neither names a truth. Both results have the same ids with bit-equal truth. The
-/// mean of the sample errors equals the score, otherwise the table belongs to other results. Two sensors pressed by the same plan share ids and
-/// commanded positions, but not samples.
+/// Pairing requires four conditions. Both results name the same truth, or neither names a truth. Both results have the same ids with bit-equal truth.
+/// Both results assign each sample to the same cluster. The mean of the sample errors equals the score, otherwise the table belongs to other results.
+/// Two sensors pressed by the same plan share ids and commanded positions, but not samples.
 ///
 /// Uses a paired t test with the variance between trainings if either model has several trainings with different errors, otherwise the sign-flip
 /// test.
 ///
 /// # Errors
-/// The reason if both results name the same truth; otherwise `None`.
+/// The reason if both results name the same truth, or have equal samples in different clusters; otherwise `None`.
 pub(super) fn difference(
     scores: Sides<&Score>,
     studies: Sides<&Study>,
@@ -41,6 +41,13 @@ pub(super) fn difference(
         return Err(known(
             "the two models predicted different samples".to_owned(),
         ));
+    }
+    let is_alike = a.grouping.column == b.grouping.column;
+    if is_alike && a.clusters != b.clusters {
+        let name = a.grouping.name;
+        return Err(Some(format!(
+            "their equal samples have different {name}; give both results the same {name}"
+        )));
     }
     let sums = Sides {
         a: &a.sums,
@@ -64,6 +71,9 @@ fn truth(study: &Study) -> Option<&str> {
 struct Errors<'a> {
     /// Truth of each sample as bits, one number for each axis.
     truths: BTreeMap<&'a str, Vec<u64>>,
+    /// Cluster of each sample.
+    clusters: BTreeMap<&'a str, &'a str>,
+    grouping: Clusters,
     sums: ClusterSums,
 }
 
@@ -89,8 +99,8 @@ impl<'a> Errors<'a> {
         let channels: Vec<SampleChannel<'_>> =
             channels.collect::<Option<_>>().ok_or_else(strange)?;
         let rows = scored(samples, &channels, score.n).ok_or_else(strange)?;
-        let clusters = Clusters::of(score);
-        let mut truths = BTreeMap::new();
+        let grouping = Clusters::of(score);
+        let (mut truths, mut clusters) = (BTreeMap::new(), BTreeMap::new());
         let mut sums = ClusterSums::default();
         let (mut sum, mut count) = (0.0, 0.0);
         for row in rows {
@@ -99,9 +109,10 @@ impl<'a> Errors<'a> {
             let key = samples
                 .word(Samples::KEY, row)
                 .ok_or("sample names are missing in the table of samples")?;
-            let cluster = samples.word(clusters.column, row);
+            let cluster = samples.word(grouping.column, row);
             let cluster = cluster
-                .ok_or_else(|| format!("{} are missing in the table of samples", clusters.name))?;
+                .ok_or_else(|| format!("{} are missing in the table of samples", grouping.name))?;
+            clusters.insert(key, cluster);
             let truth: Vec<u64> = pairs.iter().map(|[truth, _]| truth.to_bits()).collect();
             if truths.insert(key, truth).is_some() {
                 return Err("a sample occurs twice in the table of samples".to_owned());
@@ -114,7 +125,12 @@ impl<'a> Errors<'a> {
         }
         let value = score.value.number().ok_or_else(strange)?;
         match (sum / count - value).abs() <= 1e-9 * sum / count {
-            true => Ok(Errors { truths, sums }),
+            true => Ok(Errors {
+                truths,
+                clusters,
+                grouping,
+                sums,
+            }),
             false => Err(strange()),
         }
     }

@@ -144,6 +144,26 @@ fn samples_of_one_truth_that_cannot_be_paired_are_said_to_be_none() {
 }
 
 #[test]
+fn equal_samples_in_other_clusters_are_not_compared_in_pairs_and_a_note_says_why() {
+    let mut other = sampled("b", 0.0, 0.5);
+    let mut table = String::from("id,point_id,Fz,Fz_predicted\n");
+    for row in 0..48 {
+        let missed = 0.5 * (1.0 + f64::from(row % 5) / 8.0);
+        let truth = f64::from(row);
+        // The same names and counts of points, on other rows.
+        table += &format!("s{row},p{},{truth},{}\n", 11 - row % 12, truth + missed);
+    }
+    other.samples = Some(Samples::read(&table).expect("samples"));
+    let comparison = of_metric(&[sampled("a", 0.0, 0.25), other], "mae");
+    let difference = comparison.answers[0].difference.clone();
+    let test = difference.expect("tested").test.to_string();
+    assert!(test.contains("by the intervals of both"), "{test}");
+    let reason = "their equal samples have different contact points; give both results the same contact points";
+    let is_stated = comparison.notes.iter().any(|note| note.contains(reason));
+    assert!(is_stated, "{:?}", comparison.notes);
+}
+
+#[test]
 fn samples_that_are_taken_as_independent_are_paired_one_by_one() {
     let alone = |sensor: &str, error: f64| {
         let mut table = String::from("id,Fz,Fz_predicted\n");
