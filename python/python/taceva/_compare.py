@@ -64,8 +64,9 @@ def compare(
     Parameters
     ----------
     results
-        Of the same metrics, such as of two models on one recording. The MAE of results of the same samples is compared in pairs, and other scores
-        by their intervals. `score`, `score_tables` and `evaluate` keep up to 200,000 samples; `TactileMetrics` keeps none, and a note states so.
+        Of the same metrics, such as of two models on one recording. The MAE of results of the same samples, in the same order and with the same
+        points, is compared in pairs, and other scores by their intervals. `score`, `score_tables` and `evaluate` keep up to 200,000 samples;
+        `TactileMetrics` keeps none, and a note states so.
     metrics
         Metrics to compare, by name, such as ``["mae", "r2"]``; by default every metric of both results with a better direction.
     margins

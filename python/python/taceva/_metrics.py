@@ -40,14 +40,14 @@ class TactileMetrics:
         Names of the columns of the arrays; by default the six, ``Px Py Pz`` in mm and ``Fx Fy Fz`` in N.
     metrics
         Metrics and groups by name (see `metrics`); by default MAE, RMSE, bias, R² and sMAPE. ``accuracy`` is MAE, R² and sMAPE.
-        Bias is the mean of truth − prediction, and sMAPE a fraction from 0 to 2.
+        Skill is always added. Bias is the mean of truth − prediction, and sMAPE a fraction from 0 to 2.
     units
         Units of channels other than the six, such as ``{"Mz": "N·mm"}``; ``1`` by default.
     periods
         Periods of angles in degrees, such as ``{"yaw": 360}``: 359 and 1 are 2 apart. A channel named only here is in degrees.
         The period of a channel with unit ``rad`` is in degrees too.
     independent
-        True for independent samples, with intervals by sample. If false and without points, there are no intervals.
+        True for independent samples, with intervals that ignore points. If false and without points, there are no intervals.
     fields
         Additional fields of every row, among ``scene``, ``unit_id``, ``phase``, ``depth_step``, ``repeat``, ``t_s`` and ``intensity``. Metrics
         that need a missing field are skipped.

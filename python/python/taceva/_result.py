@@ -208,7 +208,7 @@ class Result(Mapping[tuple[str, str], Score]):
         return said + _taceva.score_table([self._text], "tex")
 
     def figures(self) -> list[Figure]:
-        """Return all figures for which the scores have data.
+        """Return all figures for which the scores have data; the default metrics of `score` have none.
 
         `report` also draws the samples, on a page.
         """
